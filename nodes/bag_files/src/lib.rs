@@ -1,0 +1,1 @@
+//! Bag folders on the file system: open, create, recover and describe them.

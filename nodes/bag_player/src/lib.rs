@@ -1,0 +1,1 @@
+//! TEMPORARY skeleton of bag_player.

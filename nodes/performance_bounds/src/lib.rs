@@ -1,0 +1,1 @@
+//! TEMPORARY skeleton of performance_bounds.
