@@ -1,0 +1,792 @@
+//! All interfaces, and the texts they were generated from.
+//!
+//! Generated: do not edit. To write it anew: `cargo run --release -p apprentice_msgs --example generate`.
+
+pub mod action_msgs;
+pub mod builtin_interfaces;
+pub mod diagnostic_msgs;
+pub mod geometry_msgs;
+pub mod msg;
+pub mod rcl_interfaces;
+pub mod rosgraph_msgs;
+pub mod sensor_msgs;
+pub mod srv;
+pub mod std_msgs;
+pub mod std_srvs;
+pub mod tf2_msgs;
+pub mod trajectory_msgs;
+pub mod unique_identifier_msgs;
+pub mod visualization_msgs;
+
+/// Names of all messages, sorted.
+pub(crate) const MESSAGES: &[&str] = &[
+    "action_msgs/msg/GoalInfo",
+    "action_msgs/msg/GoalStatus",
+    "action_msgs/msg/GoalStatusArray",
+    "apprentice_msgs/msg/Candidates",
+    "apprentice_msgs/msg/EvidenceLog",
+    "apprentice_msgs/msg/EvidenceReceipt",
+    "apprentice_msgs/msg/EvidenceRecord",
+    "apprentice_msgs/msg/Heartbeat",
+    "apprentice_msgs/msg/LessonStatus",
+    "apprentice_msgs/msg/NodeSettings",
+    "apprentice_msgs/msg/PerformanceBounds",
+    "apprentice_msgs/msg/PlacementBound",
+    "apprentice_msgs/msg/PlacementDemonstration",
+    "apprentice_msgs/msg/PlacementPlan",
+    "apprentice_msgs/msg/PlacementQuery",
+    "apprentice_msgs/msg/Posterior",
+    "apprentice_msgs/msg/QueryResponse",
+    "apprentice_msgs/msg/Retraction",
+    "apprentice_msgs/msg/SceneObject",
+    "apprentice_msgs/msg/TableScene",
+    "builtin_interfaces/msg/Duration",
+    "builtin_interfaces/msg/Time",
+    "diagnostic_msgs/msg/DiagnosticArray",
+    "diagnostic_msgs/msg/DiagnosticStatus",
+    "diagnostic_msgs/msg/KeyValue",
+    "geometry_msgs/msg/Accel",
+    "geometry_msgs/msg/Point",
+    "geometry_msgs/msg/Point32",
+    "geometry_msgs/msg/PointStamped",
+    "geometry_msgs/msg/Pose",
+    "geometry_msgs/msg/PoseArray",
+    "geometry_msgs/msg/PoseStamped",
+    "geometry_msgs/msg/PoseWithCovariance",
+    "geometry_msgs/msg/PoseWithCovarianceStamped",
+    "geometry_msgs/msg/Quaternion",
+    "geometry_msgs/msg/QuaternionStamped",
+    "geometry_msgs/msg/Transform",
+    "geometry_msgs/msg/TransformStamped",
+    "geometry_msgs/msg/Twist",
+    "geometry_msgs/msg/TwistStamped",
+    "geometry_msgs/msg/Vector3",
+    "geometry_msgs/msg/Vector3Stamped",
+    "geometry_msgs/msg/Wrench",
+    "geometry_msgs/msg/WrenchStamped",
+    "rcl_interfaces/msg/FloatingPointRange",
+    "rcl_interfaces/msg/IntegerRange",
+    "rcl_interfaces/msg/ListParametersResult",
+    "rcl_interfaces/msg/Log",
+    "rcl_interfaces/msg/Parameter",
+    "rcl_interfaces/msg/ParameterDescriptor",
+    "rcl_interfaces/msg/ParameterEvent",
+    "rcl_interfaces/msg/ParameterEventDescriptors",
+    "rcl_interfaces/msg/ParameterType",
+    "rcl_interfaces/msg/ParameterValue",
+    "rcl_interfaces/msg/SetParametersResult",
+    "rosgraph_msgs/msg/Clock",
+    "sensor_msgs/msg/CompressedImage",
+    "sensor_msgs/msg/JointState",
+    "std_msgs/msg/Bool",
+    "std_msgs/msg/Byte",
+    "std_msgs/msg/Char",
+    "std_msgs/msg/ColorRGBA",
+    "std_msgs/msg/Empty",
+    "std_msgs/msg/Float32",
+    "std_msgs/msg/Float32MultiArray",
+    "std_msgs/msg/Float64",
+    "std_msgs/msg/Float64MultiArray",
+    "std_msgs/msg/Header",
+    "std_msgs/msg/Int16",
+    "std_msgs/msg/Int32",
+    "std_msgs/msg/Int64",
+    "std_msgs/msg/Int8",
+    "std_msgs/msg/MultiArrayDimension",
+    "std_msgs/msg/MultiArrayLayout",
+    "std_msgs/msg/String",
+    "std_msgs/msg/UInt16",
+    "std_msgs/msg/UInt32",
+    "std_msgs/msg/UInt64",
+    "std_msgs/msg/UInt8",
+    "tf2_msgs/msg/TFMessage",
+    "trajectory_msgs/msg/JointTrajectory",
+    "trajectory_msgs/msg/JointTrajectoryPoint",
+    "unique_identifier_msgs/msg/UUID",
+    "visualization_msgs/msg/InteractiveMarker",
+    "visualization_msgs/msg/InteractiveMarkerControl",
+    "visualization_msgs/msg/InteractiveMarkerFeedback",
+    "visualization_msgs/msg/InteractiveMarkerInit",
+    "visualization_msgs/msg/InteractiveMarkerPose",
+    "visualization_msgs/msg/InteractiveMarkerUpdate",
+    "visualization_msgs/msg/Marker",
+    "visualization_msgs/msg/MarkerArray",
+    "visualization_msgs/msg/MenuEntry",
+    "visualization_msgs/msg/MeshFile",
+    "visualization_msgs/msg/UVCoordinate",
+];
+
+/// Names of all services, sorted.
+pub(crate) const SERVICES: &[&str] = &[
+    "action_msgs/srv/CancelGoal",
+    "apprentice_msgs/srv/SetPaused",
+    "rcl_interfaces/srv/DescribeParameters",
+    "rcl_interfaces/srv/GetParameterTypes",
+    "rcl_interfaces/srv/GetParameters",
+    "rcl_interfaces/srv/ListParameters",
+    "rcl_interfaces/srv/SetParameters",
+    "rcl_interfaces/srv/SetParametersAtomically",
+    "std_srvs/srv/Empty",
+    "std_srvs/srv/SetBool",
+    "std_srvs/srv/Trigger",
+    "visualization_msgs/srv/GetInteractiveMarkers",
+];
+
+/// Names and texts of all definitions, sorted by name.
+pub(crate) const DEFINITIONS: &[(&str, &str)] = &[
+    ("action_msgs/msg/GoalInfo", r#"unique_identifier_msgs/UUID goal_id
+builtin_interfaces/Time stamp
+"#),
+    ("action_msgs/msg/GoalStatus", r#"int8 STATUS_UNKNOWN=0
+int8 STATUS_ACCEPTED=1
+int8 STATUS_EXECUTING=2
+int8 STATUS_CANCELING=3
+int8 STATUS_SUCCEEDED=4
+int8 STATUS_CANCELED=5
+int8 STATUS_ABORTED=6
+
+GoalInfo goal_info
+int8 status
+"#),
+    ("action_msgs/msg/GoalStatusArray", r#"GoalStatus[] status_list
+"#),
+    ("action_msgs/srv/CancelGoal", r#"GoalInfo goal_info
+---
+int8 ERROR_NONE=0
+int8 ERROR_REJECTED=1
+int8 ERROR_UNKNOWN_GOAL_ID=2
+int8 ERROR_GOAL_TERMINATED=3
+
+int8 return_code
+GoalInfo[] goals_canceling
+"#),
+    ("apprentice_msgs/msg/Candidates", r#"# Hypothetical tables that active_query wants judged.
+std_msgs/Header header
+uint64 revision                  # of the posterior
+TableScene[] scenes
+"#),
+    ("apprentice_msgs/msg/EvidenceLog", r#"# Every accepted event of the session so far; what a replay computes from.
+std_msgs/Header header
+TableScene task                  # the first scene the session saw; names the weights
+EvidenceRecord[] records
+"#),
+    ("apprentice_msgs/msg/EvidenceReceipt", r#"# What reward_posterior did with a demonstration, a retraction or a response.
+uint8 ACCEPTED=0
+uint8 DUPLICATE=1                # had been accepted before; nothing changed
+uint8 REFUSED=2
+
+std_msgs/Header header
+string id                        # of the evidence
+uint8 outcome
+string reason                    # one sentence; empty when accepted
+uint64 revision                  # of the posterior that holds it; 0 when refused
+"#),
+    ("apprentice_msgs/msg/EvidenceRecord", r#"# One accepted event, in the order in which reward_posterior accepted it.
+uint8 DEMONSTRATION=0
+uint8 RETRACTION=1
+uint8 RESPONSE=2
+
+uint64 sequence                  # 1, 2, …; the revision of the posterior that takes it in
+uint8 kind
+PlacementDemonstration[<=1] demonstration
+Retraction[<=1] retraction
+QueryResponse[<=1] response
+"#),
+    ("apprentice_msgs/msg/Heartbeat", r#"# A node is alive. Twice a second.
+builtin_interfaces/Time stamp
+string node
+string instance                  # new at every start
+uint64 count
+"#),
+    ("apprentice_msgs/msg/LessonStatus", r#"# Where the lesson stands.
+uint8 ASKING=0
+uint8 TAUGHT=1                   # the bound is below epsilon
+uint8 STOPPED=2                  # the person said that nothing is acceptable
+uint8 GAVE_UP=3                  # max_questions asked and still not taught
+
+std_msgs/Header header
+uint64 revision
+uint8 state
+string reason
+string query_id                  # the open question; empty when there is none
+uint32 questions_asked
+uint32 demonstrations            # active ones
+uint8 bound_outcome              # as in PlacementBound
+float64 bound_m                  # NaN without one
+float64 epsilon_m
+"#),
+    ("apprentice_msgs/msg/NodeSettings", r#"# What a node was started with; a replay starts it the same way.
+string node                      # executable's name of the node
+string name                      # fully qualified name on the graph
+uint64 seed
+string version
+string commit
+string parameters                # YAML, as a ROS parameter file
+"#),
+    ("apprentice_msgs/msg/PerformanceBounds", r#"# High-confidence bounds on the placement loss, with their receipt.
+std_msgs/Header header           # stamp of the posterior
+uint64 revision                  # of the posterior
+uint8 outcome                    # as in PlacementBound; a bound only if every scene has one
+string reason                    # in words: the claim, or "no bound, because …" and what it would take
+float64 bound_m                  # the largest over the scenes; NaN without one
+uint32 worst                     # index of that scene
+PlacementBound[] bounds          # one per scene, in the order of the candidates
+float64 alpha
+float64 delta
+uint64 look                      # how many bounds the session has looked at, this one counted: revision + 1
+float64 delta_spent              # on each scene of this look
+uint64 n
+uint32 n_chains
+float64 ess_min
+float64 rhat_max
+float64 acceptance
+float64 beta
+string prior
+string evidence_hash
+uint64 seed
+string version
+"#),
+    ("apprentice_msgs/msg/PlacementBound", r#"# How far the robot's placement in one scene may be from the person's.
+uint8 BOUND=0
+uint8 NOT_ENOUGH_SAMPLES=1
+uint8 NOT_MIXED=2
+uint8 NO_PLACEMENT=3             # there is no free spot for the target in this scene
+
+string scene_id
+uint8 outcome
+geometry_msgs/Point placement    # judged: best under the MAP weights, metres
+float64 bound_m                  # upper confidence bound on the alpha-VaR of the loss; NaN without one
+float64 point_estimate_m         # empirical alpha-quantile
+float64 cvar_m                   # empirical mean of the losses at or above it
+float64 mean_m
+uint64 n                         # draws
+float64 ess                      # of the tail indicator
+float64 rhat
+uint64 index                     # 1-based order statistic used; 0 without a bound
+uint64 needed                    # effective samples a bound would take
+"#),
+    ("apprentice_msgs/msg/PlacementDemonstration", r#"# A person shows where the target belongs in a scene. Idempotent: the same id with the same content counts once.
+uint8 CONFIDENCE_SURE=0
+uint8 CONFIDENCE_FAIRLY=1
+uint8 CONFIDENCE_GUESS=2
+
+std_msgs/Header header
+string id                        # unique within a session
+string query_id                  # the question this answers; empty: volunteered
+string source                    # who: a node or a person
+TableScene scene
+geometry_msgs/Point placement    # metres, in the scene's frame
+uint8 confidence
+"#),
+    ("apprentice_msgs/msg/PlacementPlan", r#"# Where the robot would put the target, and how it would get there.
+uint8 PLANNED=0
+uint8 NO_FREE_PLACE=1
+uint8 UNREACHABLE=2
+uint8 NO_PATH=3
+uint8 NO_ROBOT=4                 # placements stand, but no robot model has been received
+
+uint8 CELL_FREE=0
+uint8 CELL_OCCUPIED=1
+uint8 CELL_UNREACHABLE=2
+
+std_msgs/Header header           # stamp of the posterior
+uint64 revision                  # of the posterior
+string query_id                  # the question this is the robot's guess for; empty: a plan for the table as it is
+TableScene scene                 # what was planned for
+string robot_hash                # SHA-256 of the robot description, hex; empty without one
+sensor_msgs/JointState start     # where the arm stood; empty without a robot
+uint8 outcome
+string reason
+geometry_msgs/Point map_placement      # best under the MAP weights, metres
+geometry_msgs/Point robust_placement   # smallest CVaR of the distance to the person's placement
+float64 map_cvar_m
+float64 robust_cvar_m
+float64 alpha
+bool inside_bound                # the lesson is taught: the robot may move
+trajectory_msgs/JointTrajectory trajectory
+uint32 map_side                  # the two maps are map_side x map_side cells, row-major, first row at y = 0
+float32[] reward_map             # mean reward over the draws
+uint8[] cell_state
+"#),
+    ("apprentice_msgs/msg/PlacementQuery", r#"# The open question: where does the target belong in this scene? Republished until it is answered.
+std_msgs/Header header           # stamp of the posterior
+string id
+uint64 revision                  # of the posterior it comes from
+TableScene scene
+string reason                    # why this is asked, in words
+float64 bound_m                  # in this scene; NaN without one
+float64 epsilon_m
+uint32 n_candidates              # how many scenes it was chosen from
+"#),
+    ("apprentice_msgs/msg/Posterior", r#"# Draws of the reward weights given the evidence.
+uint8 READY=0
+uint8 NOT_MIXED=1                # the chains disagree: see reason
+
+std_msgs/Header header           # stamp of the newest accepted evidence
+uint64 revision                  # number of accepted events
+string evidence_hash             # SHA-256 over the active demonstrations, hex
+uint64 n_demonstrations          # active ones
+uint64 n_answers                 # questions answered or skipped so far, taken back or not
+bool stopped                     # the person said that nothing is acceptable, and has not taken it back
+TableScene scene                 # of the newest active demonstration, else of the task
+uint8 outcome
+string reason
+string[] feature_names           # one per weight: object ids, then the fixed centres
+uint32 n_chains
+uint32 n_draws                   # over all chains
+float32[] draws                  # n_draws x features, row-major, chains one after another; consumers use these very numbers
+float64[] map_weights
+float64 map_log_likelihood
+float64 log_likelihood_mean
+float64 rhat_max                 # rank-normalised split R-hat, worst over weights and log-likelihood
+float64 ess_bulk_min
+float64 ess_tail_min
+float64 acceptance
+float64 beta
+string prior
+uint64 seed
+string version
+"#),
+    ("apprentice_msgs/msg/QueryResponse", r#"# An answer to a question that is not a placement.
+uint8 SKIP=0                     # no data: ask something else
+uint8 CANT_TELL=1                # the person has no opinion here: ask something else
+uint8 STOP=2                     # nothing is acceptable: stop the lesson
+
+std_msgs/Header header
+string id                        # unique within a session
+string query_id
+string source
+uint8 kind
+string reason                    # may be empty
+"#),
+    ("apprentice_msgs/msg/Retraction", r#"# Takes evidence back. Nothing is deleted: the posterior after it equals the posterior without that evidence.
+std_msgs/Header header
+string id                        # unique within a session
+string evidence_id               # what is taken back
+string source
+string reason                    # may be empty
+"#),
+    ("apprentice_msgs/msg/SceneObject", r#"# One thing on the table. Metres, in the frame of the scene's header: x to the right, y away from the robot, z up;
+# the origin is the table's near left corner on its surface.
+uint8 SHAPE_CYLINDER=0
+uint8 SHAPE_BOX=1
+
+string id                        # unique within a scene
+string label                     # what people call it
+uint8 shape
+geometry_msgs/Vector3 size_m     # bounding box; a cylinder has size_m.x == size_m.y == its diameter
+geometry_msgs/Pose pose          # centre of the base; rotation about z only
+bool supports                    # true: other things may be placed on it (a bowl for a spoon)
+"#),
+    ("apprentice_msgs/msg/TableScene", r#"# What stands on the table, and what is to be placed.
+std_msgs/Header header           # frame_id: the table's frame
+string id                        # unique within a session
+float64 width_m                  # extent along x
+float64 depth_m                  # extent along y
+SceneObject[] objects
+SceneObject target               # the thing to place; its pose is ignored
+"#),
+    ("apprentice_msgs/srv/SetPaused", r#"# Pauses or resumes a running replay.
+bool paused
+---
+bool paused
+string message
+"#),
+    ("builtin_interfaces/msg/Duration", r#"int32 sec
+uint32 nanosec
+"#),
+    ("builtin_interfaces/msg/Time", r#"int32 sec
+uint32 nanosec
+"#),
+    ("diagnostic_msgs/msg/DiagnosticArray", r#"std_msgs/Header header
+DiagnosticStatus[] status
+"#),
+    ("diagnostic_msgs/msg/DiagnosticStatus", r#"byte OK=0
+byte WARN=1
+byte ERROR=2
+byte STALE=3
+
+byte level
+string name
+string message
+string hardware_id
+KeyValue[] values
+"#),
+    ("diagnostic_msgs/msg/KeyValue", r#"string key
+string value
+"#),
+    ("geometry_msgs/msg/Accel", r#"Vector3 linear
+Vector3 angular
+"#),
+    ("geometry_msgs/msg/Point", r#"float64 x
+float64 y
+float64 z
+"#),
+    ("geometry_msgs/msg/Point32", r#"float32 x
+float32 y
+float32 z
+"#),
+    ("geometry_msgs/msg/PointStamped", r#"std_msgs/Header header
+Point point
+"#),
+    ("geometry_msgs/msg/Pose", r#"Point position
+Quaternion orientation
+"#),
+    ("geometry_msgs/msg/PoseArray", r#"std_msgs/Header header
+Pose[] poses
+"#),
+    ("geometry_msgs/msg/PoseStamped", r#"std_msgs/Header header
+Pose pose
+"#),
+    ("geometry_msgs/msg/PoseWithCovariance", r#"Pose pose
+float64[36] covariance
+"#),
+    ("geometry_msgs/msg/PoseWithCovarianceStamped", r#"std_msgs/Header header
+PoseWithCovariance pose
+"#),
+    ("geometry_msgs/msg/Quaternion", r#"float64 x 0
+float64 y 0
+float64 z 0
+float64 w 1
+"#),
+    ("geometry_msgs/msg/QuaternionStamped", r#"std_msgs/Header header
+Quaternion quaternion
+"#),
+    ("geometry_msgs/msg/Transform", r#"Vector3 translation
+Quaternion rotation
+"#),
+    ("geometry_msgs/msg/TransformStamped", r#"std_msgs/Header header
+string child_frame_id
+Transform transform
+"#),
+    ("geometry_msgs/msg/Twist", r#"Vector3 linear
+Vector3 angular
+"#),
+    ("geometry_msgs/msg/TwistStamped", r#"std_msgs/Header header
+Twist twist
+"#),
+    ("geometry_msgs/msg/Vector3", r#"float64 x
+float64 y
+float64 z
+"#),
+    ("geometry_msgs/msg/Vector3Stamped", r#"std_msgs/Header header
+Vector3 vector
+"#),
+    ("geometry_msgs/msg/Wrench", r#"Vector3 force
+Vector3 torque
+"#),
+    ("geometry_msgs/msg/WrenchStamped", r#"std_msgs/Header header
+Wrench wrench
+"#),
+    ("rcl_interfaces/msg/FloatingPointRange", r#"float64 from_value
+float64 to_value
+float64 step
+"#),
+    ("rcl_interfaces/msg/IntegerRange", r#"int64 from_value
+int64 to_value
+uint64 step
+"#),
+    ("rcl_interfaces/msg/ListParametersResult", r#"string[] names
+string[] prefixes
+"#),
+    ("rcl_interfaces/msg/Log", r#"byte DEBUG=10
+byte INFO=20
+byte WARN=30
+byte ERROR=40
+byte FATAL=50
+
+builtin_interfaces/Time stamp
+uint8 level
+string name
+string msg
+string file
+string function
+uint32 line
+"#),
+    ("rcl_interfaces/msg/Parameter", r#"string name
+ParameterValue value
+"#),
+    ("rcl_interfaces/msg/ParameterDescriptor", r#"string name
+uint8 type
+string description
+string additional_constraints
+bool read_only false
+bool dynamic_typing false
+FloatingPointRange[<=1] floating_point_range
+IntegerRange[<=1] integer_range
+"#),
+    ("rcl_interfaces/msg/ParameterEvent", r#"builtin_interfaces/Time stamp
+string node
+Parameter[] new_parameters
+Parameter[] changed_parameters
+Parameter[] deleted_parameters
+"#),
+    ("rcl_interfaces/msg/ParameterEventDescriptors", r#"ParameterDescriptor[] new_parameters
+ParameterDescriptor[] changed_parameters
+ParameterDescriptor[] deleted_parameters
+"#),
+    ("rcl_interfaces/msg/ParameterType", r#"uint8 PARAMETER_NOT_SET=0
+uint8 PARAMETER_BOOL=1
+uint8 PARAMETER_INTEGER=2
+uint8 PARAMETER_DOUBLE=3
+uint8 PARAMETER_STRING=4
+uint8 PARAMETER_BYTE_ARRAY=5
+uint8 PARAMETER_BOOL_ARRAY=6
+uint8 PARAMETER_INTEGER_ARRAY=7
+uint8 PARAMETER_DOUBLE_ARRAY=8
+uint8 PARAMETER_STRING_ARRAY=9
+"#),
+    ("rcl_interfaces/msg/ParameterValue", r#"uint8 type
+bool bool_value
+int64 integer_value
+float64 double_value
+string string_value
+byte[] byte_array_value
+bool[] bool_array_value
+int64[] integer_array_value
+float64[] double_array_value
+string[] string_array_value
+"#),
+    ("rcl_interfaces/msg/SetParametersResult", r#"bool successful
+string reason
+"#),
+    ("rcl_interfaces/srv/DescribeParameters", r#"string[] names
+---
+ParameterDescriptor[] descriptors
+"#),
+    ("rcl_interfaces/srv/GetParameterTypes", r#"string[] names
+---
+uint8[] types
+"#),
+    ("rcl_interfaces/srv/GetParameters", r#"string[] names
+---
+ParameterValue[] values
+"#),
+    ("rcl_interfaces/srv/ListParameters", r#"uint64 DEPTH_RECURSIVE=0
+string[] prefixes
+uint64 depth
+---
+ListParametersResult result
+"#),
+    ("rcl_interfaces/srv/SetParameters", r#"Parameter[] parameters
+---
+SetParametersResult[] results
+"#),
+    ("rcl_interfaces/srv/SetParametersAtomically", r#"Parameter[] parameters
+---
+SetParametersResult result
+"#),
+    ("rosgraph_msgs/msg/Clock", r#"builtin_interfaces/Time clock
+"#),
+    ("sensor_msgs/msg/CompressedImage", r#"std_msgs/Header header
+string format
+uint8[] data
+"#),
+    ("sensor_msgs/msg/JointState", r#"std_msgs/Header header
+string[] name
+float64[] position
+float64[] velocity
+float64[] effort
+"#),
+    ("std_msgs/msg/Bool", r#"bool data
+"#),
+    ("std_msgs/msg/Byte", r#"byte data
+"#),
+    ("std_msgs/msg/Char", r#"char data
+"#),
+    ("std_msgs/msg/ColorRGBA", r#"float32 r
+float32 g
+float32 b
+float32 a
+"#),
+    ("std_msgs/msg/Empty", r#""#),
+    ("std_msgs/msg/Float32", r#"float32 data
+"#),
+    ("std_msgs/msg/Float32MultiArray", r#"MultiArrayLayout layout
+float32[] data
+"#),
+    ("std_msgs/msg/Float64", r#"float64 data
+"#),
+    ("std_msgs/msg/Float64MultiArray", r#"MultiArrayLayout layout
+float64[] data
+"#),
+    ("std_msgs/msg/Header", r#"builtin_interfaces/Time stamp
+string frame_id
+"#),
+    ("std_msgs/msg/Int16", r#"int16 data
+"#),
+    ("std_msgs/msg/Int32", r#"int32 data
+"#),
+    ("std_msgs/msg/Int64", r#"int64 data
+"#),
+    ("std_msgs/msg/Int8", r#"int8 data
+"#),
+    ("std_msgs/msg/MultiArrayDimension", r#"string label
+uint32 size
+uint32 stride
+"#),
+    ("std_msgs/msg/MultiArrayLayout", r#"MultiArrayDimension[] dim
+uint32 data_offset
+"#),
+    ("std_msgs/msg/String", r#"string data
+"#),
+    ("std_msgs/msg/UInt16", r#"uint16 data
+"#),
+    ("std_msgs/msg/UInt32", r#"uint32 data
+"#),
+    ("std_msgs/msg/UInt64", r#"uint64 data
+"#),
+    ("std_msgs/msg/UInt8", r#"uint8 data
+"#),
+    ("std_srvs/srv/Empty", r#"---
+"#),
+    ("std_srvs/srv/SetBool", r#"bool data
+---
+bool success
+string message
+"#),
+    ("std_srvs/srv/Trigger", r#"---
+bool success
+string message
+"#),
+    ("tf2_msgs/msg/TFMessage", r#"geometry_msgs/TransformStamped[] transforms
+"#),
+    ("trajectory_msgs/msg/JointTrajectory", r#"std_msgs/Header header
+string[] joint_names
+JointTrajectoryPoint[] points
+"#),
+    ("trajectory_msgs/msg/JointTrajectoryPoint", r#"float64[] positions
+float64[] velocities
+float64[] accelerations
+float64[] effort
+builtin_interfaces/Duration time_from_start
+"#),
+    ("unique_identifier_msgs/msg/UUID", r#"uint8[16] uuid
+"#),
+    ("visualization_msgs/msg/InteractiveMarker", r#"std_msgs/Header header
+geometry_msgs/Pose pose
+string name
+string description
+float32 scale
+MenuEntry[] menu_entries
+InteractiveMarkerControl[] controls
+"#),
+    ("visualization_msgs/msg/InteractiveMarkerControl", r#"uint8 INHERIT=0
+uint8 FIXED=1
+uint8 VIEW_FACING=2
+uint8 NONE=0
+uint8 MENU=1
+uint8 BUTTON=2
+uint8 MOVE_AXIS=3
+uint8 MOVE_PLANE=4
+uint8 ROTATE_AXIS=5
+uint8 MOVE_ROTATE=6
+uint8 MOVE_3D=7
+uint8 ROTATE_3D=8
+uint8 MOVE_ROTATE_3D=9
+
+string name
+geometry_msgs/Quaternion orientation
+uint8 orientation_mode
+uint8 interaction_mode
+bool always_visible
+Marker[] markers
+bool independent_marker_orientation
+string description
+"#),
+    ("visualization_msgs/msg/InteractiveMarkerFeedback", r#"uint8 KEEP_ALIVE=0
+uint8 POSE_UPDATE=1
+uint8 MENU_SELECT=2
+uint8 BUTTON_CLICK=3
+uint8 MOUSE_DOWN=4
+uint8 MOUSE_UP=5
+
+std_msgs/Header header
+string client_id
+string marker_name
+string control_name
+uint8 event_type
+geometry_msgs/Pose pose
+uint32 menu_entry_id
+geometry_msgs/Point mouse_point
+bool mouse_point_valid
+"#),
+    ("visualization_msgs/msg/InteractiveMarkerInit", r#"string server_id
+uint64 seq_num
+InteractiveMarker[] markers
+"#),
+    ("visualization_msgs/msg/InteractiveMarkerPose", r#"std_msgs/Header header
+geometry_msgs/Pose pose
+string name
+"#),
+    ("visualization_msgs/msg/InteractiveMarkerUpdate", r#"uint8 KEEP_ALIVE=0
+uint8 UPDATE=1
+
+string server_id
+uint64 seq_num
+uint8 type
+InteractiveMarker[] markers
+InteractiveMarkerPose[] poses
+string[] erases
+"#),
+    ("visualization_msgs/msg/Marker", r#"int32 ARROW=0
+int32 CUBE=1
+int32 SPHERE=2
+int32 CYLINDER=3
+int32 LINE_STRIP=4
+int32 LINE_LIST=5
+int32 CUBE_LIST=6
+int32 SPHERE_LIST=7
+int32 POINTS=8
+int32 TEXT_VIEW_FACING=9
+int32 MESH_RESOURCE=10
+int32 TRIANGLE_LIST=11
+int32 ARROW_STRIP=12
+int32 ADD=0
+int32 MODIFY=0
+int32 DELETE=2
+int32 DELETEALL=3
+
+std_msgs/Header header
+string ns
+int32 id
+int32 type
+int32 action
+geometry_msgs/Pose pose
+geometry_msgs/Vector3 scale
+std_msgs/ColorRGBA color
+builtin_interfaces/Duration lifetime
+bool frame_locked
+geometry_msgs/Point[] points
+std_msgs/ColorRGBA[] colors
+string texture_resource
+sensor_msgs/CompressedImage texture
+UVCoordinate[] uv_coordinates
+string text
+string mesh_resource
+MeshFile mesh_file
+bool mesh_use_embedded_materials
+"#),
+    ("visualization_msgs/msg/MarkerArray", r#"Marker[] markers
+"#),
+    ("visualization_msgs/msg/MenuEntry", r#"uint8 FEEDBACK=0
+uint8 ROSRUN=1
+uint8 ROSLAUNCH=2
+
+uint32 id
+uint32 parent_id
+string title
+string command
+uint8 command_type
+"#),
+    ("visualization_msgs/msg/MeshFile", r#"string filename
+uint8[] data
+"#),
+    ("visualization_msgs/msg/UVCoordinate", r#"float32 u
+float32 v
+"#),
+    ("visualization_msgs/srv/GetInteractiveMarkers", r#"---
+uint64 sequence_number
+InteractiveMarker[] markers
+"#),
+];
