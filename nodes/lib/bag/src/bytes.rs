@@ -9,11 +9,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum ParseError {
     #[error("{what} needs {needed} bytes, {available} are left in the record")]
-    Short {
-        what: &'static str,
-        needed: u64,
-        available: usize,
-    },
+    Short { what: &'static str, needed: u64, available: usize },
     #[error("{what} is not UTF-8")]
     NotUtf8 { what: &'static str },
     #[error("{0}")]
@@ -36,11 +32,7 @@ impl<'a> Bytes<'a> {
     }
 
     pub(crate) fn take(&mut self, n: u64, what: &'static str) -> Result<&'a [u8], ParseError> {
-        let short = ParseError::Short {
-            what,
-            needed: n,
-            available: self.rest.len(),
-        };
+        let short = ParseError::Short { what, needed: n, available: self.rest.len() };
         let n = usize::try_from(n).map_err(|_| short.clone())?;
         let (head, rest) = self.rest.split_at_checked(n).ok_or(short)?;
         self.rest = rest;
@@ -72,9 +64,7 @@ impl<'a> Bytes<'a> {
     pub(crate) fn string(&mut self, what: &'static str) -> Result<String, ParseError> {
         let length = self.u32(what)?;
         let bytes = self.take(u64::from(length), what)?;
-        std::str::from_utf8(bytes)
-            .map(str::to_owned)
-            .map_err(|_| ParseError::NotUtf8 { what })
+        std::str::from_utf8(bytes).map(str::to_owned).map_err(|_| ParseError::NotUtf8 { what })
     }
 
     pub(crate) fn string_map(&mut self, what: &'static str) -> Result<BTreeMap<String, String>, ParseError> {
@@ -96,14 +86,7 @@ mod tests {
     #[test]
     fn a_string_that_claims_four_gigabytes_is_refused_without_reserving_them() {
         let error = Bytes::new(&[0xff, 0xff, 0xff, 0xff, b'x']).string("topic");
-        assert_eq!(
-            error,
-            Err(ParseError::Short {
-                what: "topic",
-                needed: u64::from(u32::MAX),
-                available: 1
-            })
-        );
+        assert_eq!(error, Err(ParseError::Short { what: "topic", needed: u64::from(u32::MAX), available: 1 }));
     }
 
     #[test]

@@ -12,9 +12,6 @@ pub struct Limits {
 impl Default for Limits {
     /// 256 MiB a record, 1 GiB of overlapping chunks.
     fn default() -> Limits {
-        Limits {
-            record_bytes: 256 << 20,
-            loaded_bytes: 1 << 30,
-        }
+        Limits { record_bytes: 256 << 20, loaded_bytes: 1 << 30 }
     }
 }

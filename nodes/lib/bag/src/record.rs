@@ -28,10 +28,7 @@ pub(crate) struct Header {
 impl Header {
     pub(crate) fn parse(bytes: &[u8]) -> Result<Header, ParseError> {
         let mut bytes = Bytes::new(bytes);
-        Ok(Header {
-            profile: bytes.string("profile")?,
-            library: bytes.string("library")?,
-        })
+        Ok(Header { profile: bytes.string("profile")?, library: bytes.string("library")? })
     }
 }
 
@@ -178,10 +175,7 @@ impl Footer {
 impl MetadataRecord {
     pub(crate) fn parse(bytes: &[u8]) -> Result<MetadataRecord, ParseError> {
         let mut bytes = Bytes::new(bytes);
-        Ok(MetadataRecord {
-            name: bytes.string("metadata name")?,
-            values: bytes.string_map("metadata values")?,
-        })
+        Ok(MetadataRecord { name: bytes.string("metadata name")?, values: bytes.string_map("metadata values")? })
     }
 }
 

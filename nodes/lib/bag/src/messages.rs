@@ -1,0 +1,130 @@
+//! Messages in the order of their log times, with only those chunks in memory whose times overlap.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+use std::io::{Read, Seek};
+use std::sync::Arc;
+
+use crate::chunk::Segment;
+use crate::record::opcode;
+use crate::{BagError, BagReader, Message};
+
+/// A loaded segment: its records, and where its messages lie, in the order in which they are due.
+struct Loaded {
+    records: Vec<u8>,
+    due: Vec<(u64, usize)>,
+    next: usize,
+}
+
+/// Iterator over a file's messages by log time, then file order. It ends after the first error.
+pub struct Messages<'a, R> {
+    reader: &'a mut BagReader<R>,
+    /// Segments still to be loaded, the earliest last.
+    waiting: Vec<Segment>,
+    /// Next message of every loaded segment: log time and offset of the segment, earliest on top.
+    heap: BinaryHeap<Reverse<(u64, u64)>>,
+    loaded: BTreeMap<u64, (Segment, Loaded)>,
+    loaded_bytes: u64,
+    given: u64,
+    done: bool,
+}
+
+impl<'a, R: Read + Seek> Messages<'a, R> {
+    pub(crate) fn new(reader: &'a mut BagReader<R>) -> Messages<'a, R> {
+        let mut waiting = reader.segments.clone();
+        waiting.sort_by_key(|segment| Reverse((segment.start, segment.span.offset)));
+        Messages {
+            reader,
+            waiting,
+            heap: BinaryHeap::new(),
+            loaded: BTreeMap::new(),
+            loaded_bytes: 0,
+            given: 0,
+            done: false,
+        }
+    }
+
+    /// Loads every segment that may hold a message not later than the earliest one known.
+    fn load_due(&mut self) -> Result<(), BagError> {
+        while let Some(segment) = self.waiting.last() {
+            if self.heap.peek().is_some_and(|Reverse((log_time, _))| *log_time < segment.start) {
+                break;
+            }
+            if let Some(segment) = self.waiting.pop() {
+                self.load(segment)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn load(&mut self, segment: Segment) -> Result<(), BagError> {
+        let offset = segment.span.offset;
+        let bytes = self.loaded_bytes.saturating_add(segment.uncompressed_size);
+        if bytes > self.reader.limits.loaded_bytes {
+            return Err(BagError::TooMuchOverlap { offset, bytes, limit: self.reader.limits.loaded_bytes });
+        }
+        let records = segment.load(&mut self.reader.source, &self.reader.limits)?;
+        let mut due = Vec::new();
+        segment.visit(&records, &mut self.reader.table, |table, at, message| {
+            if table.topic(message.channel).is_none() {
+                return Err(BagError::UnknownChannel { offset, channel: message.channel });
+            }
+            if message.log_time < segment.start || message.log_time > segment.end {
+                let (time, start, end) = (message.log_time, segment.start, segment.end);
+                let why = format!("a message of time {time} is in a chunk that says {start} to {end}");
+                return Err(BagError::Malformed { offset, opcode: opcode::CHUNK, why });
+            }
+            due.push((message.log_time, at));
+            Ok(())
+        })?;
+        due.sort_unstable();
+        if let Some((log_time, _)) = due.first() {
+            self.heap.push(Reverse((*log_time, offset)));
+            self.loaded_bytes = bytes;
+            self.loaded.insert(offset, (segment, Loaded { records, due, next: 0 }));
+        }
+        Ok(())
+    }
+
+    fn advance(&mut self) -> Result<Option<Message>, BagError> {
+        self.load_due()?;
+        let Some(Reverse((_, offset))) = self.heap.pop() else {
+            let (got, expected) = (self.given, self.reader.contents().message_count);
+            return if got == expected { Ok(None) } else { Err(BagError::CountMismatch { got, expected }) };
+        };
+        let (segment, loaded) = self.loaded.get_mut(&offset).expect("the heap only names loaded segments");
+        let (_, at) = loaded.due[loaded.next];
+        let record = segment.message_at(&loaded.records, at)?;
+        let topic = self.reader.table.topic(record.channel).expect("loading checked every channel");
+        let message = Message {
+            topic: Arc::clone(topic),
+            log_time: record.log_time,
+            publish_time: record.publish_time,
+            sequence: record.sequence,
+            data: record.data.to_vec(),
+        };
+        loaded.next += 1;
+        match loaded.due.get(loaded.next) {
+            Some((log_time, _)) => self.heap.push(Reverse((*log_time, offset))),
+            None => {
+                self.loaded_bytes -= segment.uncompressed_size;
+                self.loaded.remove(&offset);
+            }
+        }
+        self.given += 1;
+        Ok(Some(message))
+    }
+}
+
+impl<R: Read + Seek> Iterator for Messages<'_, R> {
+    type Item = Result<Message, BagError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.done {
+            return None;
+        }
+        let next = self.advance().transpose();
+        self.done = !matches!(next, Some(Ok(_)));
+        next
+    }
+}
