@@ -1,0 +1,311 @@
+// The page: keeps the newest sections of the node's state and what the person is doing, and shows both.
+
+import { canUndo, drawAnswers, fate } from "./answers.js";
+import { cm, isUnreachable, obstruction } from "./geometry.js";
+import { Link, newId } from "./link.js";
+import { colour, range } from "./maps.js";
+import { drawReceipt } from "./receipt.js";
+import { TableView } from "./table.js";
+import { drawTrend } from "./trend.js";
+
+const $ = (id) => document.getElementById(id);
+const state = { question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null };
+const own = { question: undefined, at: null, revealed: false, heat: false, sent: null, sentFor: null, correcting: false, look: null, problem: "" };
+
+const table = new TableView($("table"), { moved, submitted: submit, hovered });
+const link = new Link({ status, sections, refused, notice });
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
+// ---- what is on the table now -------------------------------------------------------------------------------------
+
+const lessonState = () => state.lesson?.state ?? "waiting";
+const isAsking = () => Boolean(state.question?.open) && own.sentFor !== state.question.id;
+const isTeaching = () => isAsking() || (own.correcting && !state.question?.open && own.sentFor !== "");
+const showsQuestion = () => Boolean(state.question) && (state.question.open || lessonState() === "asking") && !own.correcting;
+const scene = () => (showsQuestion() ? state.question.scene : state.scene ?? state.question?.scene ?? null);
+
+/** The robot's placement for what is on the table now, null while there is none. */
+function plan() {
+  if (!showsQuestion()) return state.plan;
+  return state.guess && state.guess.query_id === state.question.id ? state.guess : null;
+}
+
+/** The robot's opinion is shown once the person has formed one, or when nothing is asked. */
+const reveal = () => (showsQuestion() || own.correcting ? own.revealed : ["taught", "gave_up"].includes(lessonState()));
+
+// ---- from the node ------------------------------------------------------------------------------------------------
+
+function sections(changed) {
+  Object.assign(state, changed);
+  const key = state.question?.open ? state.question.id : null;
+  if (key !== null && own.question !== key) {
+    Object.assign(own, { question: key, at: null, revealed: false, sentFor: null, correcting: false, problem: "" });
+    document.querySelector('input[name="confidence"][value="sure"]').checked = true;
+    table.place(null);
+  }
+  render();
+}
+
+function status(word) {
+  own.status = word;
+  renderConnection();
+}
+
+function refused(id, reason) {
+  if (id !== null && id === own.sent) Object.assign(own, { sentFor: null });
+  own.problem = reason;
+  notice(reason);
+  render();
+}
+
+function notice(text) {
+  const box = document.createElement("div"), words = document.createElement("span"), close = document.createElement("button");
+  box.className = "notice";
+  words.textContent = text;
+  close.textContent = "Dismiss";
+  close.addEventListener("click", () => box.remove());
+  box.append(words, close);
+  while ($("notices").children.length > 2) $("notices").firstChild.remove();
+  $("notices").append(box);
+}
+
+// ---- from the person ----------------------------------------------------------------------------------------------
+
+function moved(at, settled) {
+  own.at = at;
+  own.look = null;
+  if (settled && at && !own.revealed) {
+    own.revealed = true;
+    render();
+  } else {
+    renderAnswer();
+  }
+}
+
+function hovered(at) {
+  own.hover = at;
+  renderReadout();
+}
+
+function submit() {
+  if ($("submit").disabled || !own.at) return;
+  const query = state.question?.open ? state.question.id : "";
+  const confidence = document.querySelector('input[name="confidence"]:checked').value;
+  send({ type: "place", id: newId(), query_id: query, x_m: own.at.x, y_m: own.at.y, confidence }, query);
+}
+
+function respond(kind, reason = "") {
+  if (isAsking()) send({ type: "respond", id: newId(), query_id: state.question.id, kind, reason }, state.question.id);
+}
+
+function send(command, query) {
+  Object.assign(own, { sent: command.id, problem: "" });
+  if (query !== undefined) own.sentFor = query;
+  link.send(command);
+  render();
+}
+
+const undo = (answer) => send({ type: "retract", id: newId(), evidence_id: answer.id });
+const redo = (answer) => send({ type: "again", id: newId(), evidence_id: answer.id });
+const lastActive = () => state.answers.findLast(canUndo);
+const isActive = (answer) => answer.state === "accepted" || answer.state === "pending";
+const sameSpot = (a, b) => a.x_m === b.x_m && a.y_m === b.y_m && a.scene?.id === b.scene?.id;
+const lastUndone = () => state.answers.findLast((a) => a.kind === "placement" && a.state === "undone" && !state.answers.some((b) => isActive(b) && sameSpot(a, b)));
+
+$("submit").addEventListener("click", () => (isTeaching() ? submit() : startCorrecting()));
+$("skip").addEventListener("click", () => respond("skip"));
+$("cant-tell").addEventListener("click", () => respond("cant_tell"));
+$("undo").addEventListener("click", () => { const answer = lastActive(); if (answer) undo(answer); });
+$("redo").addEventListener("click", () => { const answer = lastUndone(); if (answer) redo(answer); });
+$("stop").addEventListener("click", () => { $("stop-dialog").returnValue = ""; $("stop-dialog").showModal(); });
+$("stop-dialog").addEventListener("close", () => { if ($("stop-dialog").returnValue === "stop") respond("stop", $("stop-reason").value); $("stop-reason").value = ""; });
+$("heat").addEventListener("change", () => { own.heat = $("heat").checked; render(); });
+$("log-scale").addEventListener("change", renderProgress);
+$("theme").addEventListener("click", () => setTheme(isDark() ? "light" : "dark"));
+dark.addEventListener("change", render);
+for (const kind of ["keydown", "pointerdown"]) addEventListener(kind, () => { document.documentElement.dataset.input = kind; }, true);
+new ResizeObserver(renderProgress).observe($("plot"));
+
+function startCorrecting() {
+  Object.assign(own, { correcting: true, at: null, revealed: false, sentFor: null });
+  table.place(null);
+  render();
+}
+
+// ---- showing it ---------------------------------------------------------------------------------------------------
+
+function text(id, words, value) {
+  const node = $(id);
+  if (node.textContent !== words) node.textContent = words;
+  if (value !== undefined) node.dataset.value = value ?? "";
+}
+
+function render() {
+  renderLesson();
+  renderTable();
+  renderAnswer();
+  renderProgress();
+  drawAnswers($("answers"), state.answers, { undo, redo, look });
+  const active = state.answers.filter((a) => a.state === "accepted").length;
+  text("history-count", state.answers.length ? `${active} in force of ${state.answers.length}` : "");
+  $("no-answers").hidden = state.answers.length > 0;
+  $("answers").hidden = state.answers.length === 0;
+  renderConnection();
+}
+
+const STATES = { waiting: "Waiting for the lesson", asking: "Learning", taught: "Taught", stopped: "Stopped", gave_up: "Gave up" };
+
+function renderLesson() {
+  const { question, lesson, bounds, posterior } = state, name = scene()?.target.label ?? "it", word = lessonState();
+  text("state-text", STATES[word]);
+  $("state").dataset.value = word;
+  text("revision", posterior ? String(posterior.revision) : "–", posterior?.revision ?? null);
+  const asking = showsQuestion();
+  text("question-number", own.correcting ? "Your correction" : asking ? `Question ${lesson?.questions_asked || ""}` : "The lesson");
+  text("question-id", asking ? question.id : "", asking ? question.id : "");
+  text("question-title", own.correcting || asking ? `Where does the ${name} belong?` : { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking." }[word] ?? "One moment…");
+  text("question-reason", own.correcting ? `Show where the ${name} belongs on the table as it is.` : asking ? question.reason : lesson?.reason || "The page is waiting for the robot's first question.");
+  const epsilon = lesson?.epsilon_m ?? question?.epsilon_m ?? null, bound = bounds?.bound_m ?? null;
+  text("bound", bound === null ? (bounds ? "no bound yet" : "–") : cm(bound), bound);
+  $("bound").dataset.revision = bounds?.revision ?? "";
+  text("epsilon", cm(epsilon), epsilon);
+  const full = Math.max(bound ?? 0, (epsilon ?? 0.1) * 2) * 1.05;
+  $("gauge-fill").style.width = `${bound === null ? 100 : Math.min(100, (100 * bound) / full)}%`;
+  $("gauge").dataset.state = bound === null ? "none" : epsilon !== null && bound < epsilon ? "below" : "above";
+  $("gauge-goal").style.left = `${(100 * (epsilon ?? 0)) / full}%`;
+  $("gauge").setAttribute("aria-label", `At worst ${cm(bound)} off, goal ${cm(epsilon)}`);
+  text("claim", bounds?.reason ?? "");
+}
+
+function renderTable() {
+  const shown = own.look?.scene ?? scene();
+  const guessed = own.look ? null : plan();
+  table.show({
+    scene: shown,
+    plan: guessed,
+    heat: own.heat && reveal(),
+    reveal: reveal(),
+    movable: !own.look && (isTeaching() || (showsQuestion() && own.at !== null && !isAsking())),
+    marks: own.look ? [{ x: own.look.x_m, y: own.look.y_m, label: `revision ${own.look.revision ?? "…"}` }] : [],
+    guessLabel: showsQuestion() || own.correcting ? "robot's guess" : "the robot's place",
+    dark: isDark(),
+  });
+  $("heat").disabled = !reveal() || !plan()?.reward_map.length;
+  renderLegend();
+  const thinking = !own.look && lessonState() === "asking" && !isAsking();
+  $("veil").hidden = !(thinking || !shown);
+  text("veil-text", !shown ? "Waiting for a table" : "Thinking about the next question…");
+}
+
+function renderLegend() {
+  const map = plan(), span = own.heat && reveal() && map ? range(map.reward_map) : null;
+  $("legend").hidden = !span;
+  if (!span) return;
+  text("legend-low", span[0].toFixed(2));
+  text("legend-high", span[1].toFixed(2));
+  const context = $("legend-ramp").getContext("2d");
+  for (let i = 0; i < 96; i++) { context.fillStyle = `rgb(${colour(i / 95)})`; context.fillRect(i, 0, 1, 8); }
+}
+
+function renderReadout() {
+  const shown = scene(), at = own.at ?? own.hover, map = plan();
+
+  if (!shown || !at || own.look) return text("readout", own.look ? `An earlier answer: ${fate(own.look)}` : "Brown hatching: occupied. Grey hatching: out of the arm's reach.");
+  const where = `${(at.x * 100).toFixed(1)} cm from the left, ${(at.y * 100).toFixed(1)} cm from the robot's edge`;
+  const blocked = obstruction(shown, at), far = isUnreachable(map, shown, at);
+  text("readout", `${where}${blocked ? ` · ${blocked}` : far ? " · out of the arm's reach" : ""}`);
+}
+
+function renderAnswer() {
+  renderReadout();
+  const shown = scene(), map = plan(), name = shown?.target.label ?? "it", teaching = isTeaching(), asking = isAsking();
+  const blocked = teaching && own.at && shown ? obstruction(shown, own.at) : null;
+  const submittable = teaching && own.at && !blocked, idle = !teaching && !showsQuestion() && Boolean(state.scene) && lessonState() !== "waiting" && lessonState() !== "asking";
+  $("submit").disabled = !(submittable || idle);
+  text("submit-text", idle ? "Show another placement" : `Place the ${name} here`);
+  $("submit").querySelector("kbd").hidden = idle;
+  const far = submittable && isUnreachable(map, shown, own.at);
+  text("hint", own.problem ? own.problem
+    : blocked ? `Not there: ${blocked}.`
+    : far ? "The arm does not reach this spot. You may still say that it belongs there."
+    : teaching && !own.at ? `Drag the ${name} onto the table, or use the arrow keys.`
+    : submittable ? "Fine-tune with the arrow keys: 5 mm, with Shift 2 cm." : "");
+  $("hint").dataset.tone = own.problem || blocked ? "bad" : far ? "warn" : "";
+  for (const id of ["skip", "cant-tell", "stop"]) $(id).disabled = !asking;
+  document.querySelector(".confidence").disabled = !teaching;
+  const undoable = lastActive(), redoable = lastUndone();
+  $("undo").disabled = !undoable;
+  $("redo").disabled = !redoable;
+  renderGuess(map, shown, name);
+  const sent = state.answers.find((a) => a.id === own.sent || a.undo?.id === own.sent);
+  const isUndo = sent && sent.id !== own.sent;
+  const words = !own.sent ? "" : !sent ? "Sending…"
+    : isUndo ? { accepted: `Taken back in revision ${sent.undo.revision}`, refused: `Could not be taken back: ${sent.undo.reason}` }[sent.undo.state] ?? "Taking it back…"
+    : { accepted: `Taken in as revision ${sent.revision}`, refused: `Refused: ${sent.reason}`, undone: "" }[sent.state] ?? "On its way to the robot…";
+  text("acknowledgement", own.problem ? "" : words, sent ? (isUndo ? sent.undo.revision : sent.revision) : null);
+  $("acknowledgement").dataset.state = sent ? (isUndo ? sent.undo.state : sent.state) : own.sent ? "sending" : "";
+}
+
+function renderGuess(map, shown, name) {
+  const guess = map?.map_placement;
+  let words = "", distance = null;
+  if (showsQuestion() || own.correcting) {
+    if (!own.revealed) words = `The robot's own guess stays hidden until you have placed the ${name}, so that it does not sway you.`;
+    else if (guess && own.at) {
+      distance = Math.hypot(guess.x_m - own.at.x, guess.y_m - own.at.y);
+      words = `The robot guessed ${cm(distance)} from yours.`;
+    } else if (map && !guess) words = `The robot has no guess: ${map.reason}`;
+    else if (!map) words = "The robot's guess has not arrived.";
+  } else if (map) {
+    words = guess ? `On this table the robot would put the ${name} ${(guess.x_m * 100).toFixed(1)} cm from the left, ${(guess.y_m * 100).toFixed(1)} cm from its edge${map.outcome === "planned" ? `, in a motion of ${map.motion_s.toFixed(1)} s` : ""}.` : map.reason;
+    if (guess && map.outcome !== "planned") words += ` ${map.reason}`;
+  }
+  text("guess-distance", words, distance);
+}
+
+function renderProgress() {
+  drawTrend($("trend"), state.trend, $("log-scale").checked);
+  drawReceipt($("receipt-list"), state.bounds);
+  $("receipt").hidden = !state.bounds;
+}
+
+function look(answer) {
+  own.look = answer;
+  renderTable();
+  renderReadout();
+}
+
+function renderConnection() {
+  const gone = state.nodes.filter((n) => n.state !== "alive"), open = own.status === "open";
+  const value = !open ? (own.status === "lost" ? "lost" : "connecting") : gone.some((n) => n.state === "gone") ? "gone" : gone.length ? "late" : "open";
+  $("connection").dataset.value = value;
+  text("connection-text", !open ? (own.status === "lost" ? "Reconnecting…" : "Connecting…") : gone.length ? `${gone[0].name} ${gone[0].state}` : "Connected");
+  document.body.classList.toggle("offline", own.status === "lost");
+  const list = $("node-list"), key = JSON.stringify([open, state.nodes]);
+  if (list.dataset.key === key) return;
+  list.dataset.key = key;
+  list.replaceChildren(...[{ name: "this page", state: open ? "alive" : "gone" }, ...state.nodes].map((n) => {
+    const item = document.createElement("li"), name = document.createElement("span"), word = document.createElement("b");
+    item.dataset.node = n.name;
+    item.dataset.value = n.state;
+    name.textContent = n.name;
+    word.textContent = n.state;
+    item.append(document.createElement("i"), name, word);
+    return item;
+  }));
+  text("node-hint", state.nodes.length ? "Late: silent for 2 s. Gone: silent for 5 s." : "No heartbeat has been heard yet.");
+}
+
+function isDark() {
+  return (document.documentElement.dataset.theme ?? (dark.matches ? "dark" : "light")) === "dark";
+}
+
+function setTheme(theme) {
+  document.documentElement.dataset.theme = theme;
+  try { localStorage.setItem("apprentice.theme", theme); } catch { /* not kept */ }
+  render();
+}
+
+try { const kept = localStorage.getItem("apprentice.theme"); if (kept) document.documentElement.dataset.theme = kept; } catch { /* the system's */ }
+if (location.search) history.replaceState(null, "", location.pathname);
+render();
