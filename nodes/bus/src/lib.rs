@@ -1,1 +1,43 @@
-//! TEMPORARY skeleton of bus.
+//! One node on the ROS 2 graph: arguments, parameters, topics, services, time, logging, diagnostics and shutdown.
+//!
+//! This is the only crate that names `ros2-client` and RustDDS. A node opens a [`Bus`] on a [`Graph`] (DDS, or one
+//! within the process for tests and replays), makes its endpoints, and takes everything that happens from
+//! [`Bus::next`] as one enum of its own.
+
+mod arguments;
+mod bus;
+mod clock;
+mod error;
+mod health;
+mod help;
+mod housekeeping;
+mod logging;
+mod memory;
+mod names;
+mod parameter;
+mod parameter_error;
+mod parameter_file;
+mod publisher;
+mod qos;
+mod queue;
+mod settings;
+mod stop;
+mod suggest;
+pub mod testing;
+mod transport;
+mod yaml;
+
+pub use apprentice_msgs::builtin_interfaces::Time;
+pub use arguments::{ArgumentError, Arguments, DEFAULT_NAMESPACE};
+pub use bus::{Bus, EventSender, Graph, Next, RawSubscription};
+pub use error::{BusError, NodeError};
+pub use health::Level;
+pub use memory::MemoryGraph;
+pub use names::{NameError, NodeName};
+pub use parameter::{NodeSettings, ParameterSpec, ParameterValue, Range};
+pub use parameter_error::{ParameterError, Place};
+pub use publisher::{Publisher, RawPublisher};
+pub use qos::{Durability, Qos, QosProfile, Reliability};
+pub use settings::{settings_from_yaml, settings_to_yaml};
+pub use stop::Stopper;
+pub use transport::{EndpointInfo, RawMessage, TopicInfo};

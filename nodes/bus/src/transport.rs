@@ -1,0 +1,127 @@
+//! What a graph does for a node: bytes in, bytes out. Implemented over DDS and in memory.
+
+use std::sync::Arc;
+
+use apprentice_msgs::builtin_interfaces::Time;
+
+use crate::{error::BusError, qos::QosProfile};
+
+/// One message as it travelled.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RawMessage {
+    /// When it reached this process.
+    pub received: Time,
+    /// When the publisher sent it, if it told.
+    pub source_timestamp: Option<Time>,
+    /// The CDR message with its 4-byte header.
+    pub cdr: Vec<u8>,
+}
+
+/// Takes each message of a subscription, in order, on a thread of the graph.
+pub(crate) type Deliver = Box<dyn FnMut(RawMessage) + Send>;
+
+/// Answers a service: the request's CDR message to the answer's; `None` when the request is malformed.
+pub(crate) type Handler = Box<dyn FnMut(&[u8]) -> Option<Vec<u8>> + Send>;
+
+/// Sends the messages of one publisher.
+pub(crate) trait Sink: Send + Sync {
+    /// Sends one CDR message with its 4-byte header.
+    fn write(&self, cdr: Vec<u8>) -> Result<(), BusError>;
+
+    /// How many subscriptions are matched.
+    fn readers(&self) -> usize;
+}
+
+/// Ends a subscription or a service when it is dropped.
+pub(crate) type Guard = Box<dyn Send>;
+
+/// A graph as one node sees it. Names are absolute, types are `pkg/msg/Name`.
+pub(crate) trait Transport: Send + Sync {
+    /// Makes a publisher.
+    fn publisher(
+        &self,
+        topic: &str,
+        type_name: &str,
+        qos: &QosProfile,
+    ) -> Result<Arc<dyn Sink>, BusError>;
+
+    /// Makes a subscription.
+    fn subscribe(
+        &self,
+        topic: &str,
+        type_name: &str,
+        qos: &QosProfile,
+        deliver: Deliver,
+    ) -> Result<Guard, BusError>;
+
+    /// Offers a service of the type `pkg/srv/Name`.
+    fn serve(&self, name: &str, type_name: &str, handler: Handler) -> Result<Guard, BusError>;
+
+    /// What is known of the graph.
+    fn topics(&self) -> Vec<TopicInfo>;
+}
+
+/// One topic on the graph, with one type (a topic with two types is listed twice).
+#[derive(Debug, Clone, PartialEq)]
+pub struct TopicInfo {
+    /// Absolute ROS name.
+    pub name: String,
+    /// `pkg/msg/Name`.
+    pub type_name: String,
+    /// What a subscription should ask for to hear every publisher; depth 0: unknown.
+    pub qos: QosProfile,
+    /// Its publishers.
+    pub publishers: Vec<EndpointInfo>,
+    /// Its subscriptions.
+    pub subscriptions: Vec<EndpointInfo>,
+}
+
+/// One publisher or subscription on the graph.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndpointInfo {
+    /// Fully qualified name of its node, if known.
+    pub node: Option<String>,
+    /// Unique on the graph.
+    pub gid: [u8; 16],
+    /// What it offers or asks for.
+    pub qos: QosProfile,
+}
+
+/// The weakest of the offered profiles: a subscription asking for it hears every publisher.
+pub(crate) fn weakest(publishers: &[EndpointInfo]) -> Option<QosProfile> {
+    let mut profiles = publishers.iter().map(|endpoint| &endpoint.qos);
+    let mut weakest = profiles.next()?.clone();
+    for profile in profiles {
+        weakest.reliability = weakest.reliability.min(profile.reliability);
+        weakest.durability = weakest.durability.min(profile.durability);
+        weakest.depth = weakest.depth.max(profile.depth);
+        weakest.deadline = None;
+        weakest.lifespan = None;
+        weakest.liveliness_lease = None;
+    }
+    Some(weakest)
+}
+
+/// Checks a `pkg/kind/Name` type name; gives package and name.
+pub(crate) fn split_type<'a>(
+    type_name: &'a str,
+    kinds: &[&str],
+) -> Result<(&'a str, &'a str, &'a str), BusError> {
+    let refuse = || BusError::TypeName {
+        got: crate::yaml::shorten(type_name),
+    };
+    let good = |part: &str| {
+        !part.is_empty()
+            && part.len() < 200
+            && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+    };
+    let mut parts = type_name.split('/');
+    match (parts.next(), parts.next(), parts.next(), parts.next()) {
+        (Some(package), Some(kind), Some(name), None)
+            if good(package) && kinds.contains(&kind) && good(name) =>
+        {
+            Ok((package, kind, name))
+        }
+        _ => Err(refuse()),
+    }
+}
