@@ -37,3 +37,8 @@ pub trait Service {
     /// Name of the type: `package/srv/Name`.
     const TYPE: &'static str;
 }
+
+/// Compiles and runs the code of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -72,7 +72,8 @@ pub fn schema(type_name: &str) -> Option<&'static str> {
 }
 
 /// Puts a schema together: the text of `root_type` (`package/msg/Name`), then that of every type it
-/// depends on, depth first and once, each after a line of 80 `=` and a line `MSG: package/Name`.
+/// depends on, depth first and once, each after a newline, a line of 80 `=` and a line
+/// `MSG: package/Name` (byte for byte as rosbag2 writes it).
 ///
 /// `lookup` gives the text for a name `package/msg/Name`, from wherever it is found.
 pub fn compose_schema(root_type: &str, lookup: impl FnMut(&str) -> Option<String>) -> Result<String, SchemaError> {
@@ -114,9 +115,7 @@ impl<F: FnMut(&str) -> Option<String>> Composer<'_, F> {
             return Err(self.too_large("4 MiB of text"));
         }
         if depth > 0 {
-            if !self.text.is_empty() && !self.text.ends_with('\n') {
-                self.text.push('\n');
-            }
+            self.text.push('\n');
             self.text.push_str(&"=".repeat(80));
             self.text.push_str(&format!("\nMSG: {package}/{name}\n"));
         }

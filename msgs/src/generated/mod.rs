@@ -489,11 +489,11 @@ uint64 step
     ("rcl_interfaces/msg/ListParametersResult", r#"string[] names
 string[] prefixes
 "#),
-    ("rcl_interfaces/msg/Log", r#"byte DEBUG=10
-byte INFO=20
-byte WARN=30
-byte ERROR=40
-byte FATAL=50
+    ("rcl_interfaces/msg/Log", r#"uint8 DEBUG=10
+uint8 INFO=20
+uint8 WARN=30
+uint8 ERROR=40
+uint8 FATAL=50
 
 builtin_interfaces/Time stamp
 uint8 level
