@@ -123,7 +123,7 @@ impl Scene {
             }
             let size_m = object.shape.extents_m();
             if size_m.iter().any(|v| !v.is_finite())
-                || (!is_target && !(object.position_m.is_finite() && object.yaw_rad.is_finite()))
+                || !(is_target || object.position_m.is_finite() && object.yaw_rad.is_finite())
             {
                 return Err(SceneError::NotFinite { scene: scene(), id: id() });
             }

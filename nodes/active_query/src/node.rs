@@ -1,0 +1,219 @@
+//! The node as a state machine: posteriors and bounds in, candidates, questions and the lesson's state out.
+
+use crate::{Settings, words};
+use apprentice_msgs::builtin_interfaces::Time;
+use apprentice_msgs::msg::{Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior};
+use exchange::{scene_from_message, scene_to_message};
+use inquiry::{Choice, Judged, candidates, choose};
+use scene::Scene;
+use sha2::{Digest, Sha256};
+
+/// What reaches the node.
+#[derive(Debug, Clone)]
+pub enum Event {
+    /// A new (or repeated) posterior.
+    Posterior(Box<Posterior>),
+    /// Bounds on the candidates.
+    Bounds(Box<PerformanceBounds>),
+    /// Time to send the newest outputs again.
+    Republish,
+}
+
+/// What the node sends.
+#[derive(Debug, Clone)]
+pub enum Output {
+    /// Tables to judge.
+    Candidates(Candidates),
+    /// The open question.
+    Query(Box<PlacementQuery>),
+    /// Where the lesson stands.
+    Lesson(LessonStatus),
+    /// Something a person should know.
+    Warn(String),
+}
+
+/// What is known of the revision at hand.
+struct Round {
+    posterior: Posterior,
+    base: Scene,
+    scenes: Vec<Scene>,
+    candidates: Candidates,
+}
+
+/// See the crate.
+pub struct ActiveQuery {
+    settings: Settings,
+    round: Option<Round>,
+    query: Option<Box<PlacementQuery>>,
+    lesson: Option<LessonStatus>,
+}
+
+impl ActiveQuery {
+    /// A node that has seen nothing.
+    pub fn new(settings: Settings) -> Self {
+        Self { settings, round: None, query: None, lesson: None }
+    }
+
+    /// Takes one event. Outputs depend on the settings and the messages alone, never on `_now`.
+    pub fn step(&mut self, _now: Time, event: Event) -> Vec<Output> {
+        match event {
+            Event::Posterior(posterior) => self.posterior(*posterior),
+            Event::Bounds(bounds) => self.bounds(&bounds),
+            Event::Republish => self.republish(),
+        }
+    }
+
+    fn posterior(&mut self, posterior: Posterior) -> Vec<Output> {
+        if self.round.as_ref().is_some_and(|round| round.posterior.revision == posterior.revision) {
+            return Vec::new();
+        }
+        let base = match scene_from_message(&posterior.scene) {
+            Ok(scene) => scene,
+            Err(error) => return vec![Output::Warn(format!("posterior {} is ignored: {error}", posterior.revision))],
+        };
+        let scenes = if posterior.revision == 0 {
+            vec![base.clone()]
+        } else {
+            let n = usize::try_from(self.settings.n_candidates).unwrap_or(1);
+            let imagined = candidates(&base, n, self.settings.seed.unsigned_abs(), posterior.revision);
+            if imagined.is_empty() { vec![base.clone()] } else { imagined }
+        };
+        let stamp = posterior.header.stamp.clone();
+        let candidates = Candidates {
+            header: posterior.header.clone(),
+            revision: posterior.revision,
+            scenes: scenes.iter().map(|scene| scene_to_message(scene, stamp.clone())).collect(),
+        };
+        self.query = None;
+        self.lesson = None;
+        self.round = Some(Round { posterior, base, scenes, candidates: candidates.clone() });
+        vec![Output::Candidates(candidates)]
+    }
+
+    fn bounds(&mut self, bounds: &PerformanceBounds) -> Vec<Output> {
+        let Some(round) = &self.round else { return Vec::new() };
+        if bounds.revision != round.posterior.revision || self.lesson.is_some() {
+            return Vec::new();
+        }
+        if bounds.bounds.len() != round.scenes.len() {
+            return vec![Output::Warn(format!(
+                "bounds of revision {} are ignored: they judge {} tables, {} were asked for",
+                bounds.revision,
+                bounds.bounds.len(),
+                round.scenes.len()
+            ))];
+        }
+        let judged: Vec<Judged> = bounds.bounds.iter().map(judged).collect();
+        let epsilon_m = self.settings.epsilon_m;
+        let mut lesson = LessonStatus {
+            header: round.posterior.header.clone(),
+            revision: round.posterior.revision,
+            state: LessonStatus::ASKING,
+            reason: bounds.reason.clone(),
+            query_id: String::new(),
+            questions_asked: u32::try_from(round.posterior.n_answers).unwrap_or(u32::MAX),
+            demonstrations: u32::try_from(round.posterior.n_demonstrations).unwrap_or(u32::MAX),
+            bound_outcome: bounds.outcome,
+            bound_m: bounds.bound_m,
+            epsilon_m,
+        };
+        let mut query = None;
+        // Without a demonstration there is nothing the person has agreed to, whatever the prior says.
+        let choice =
+            if round.posterior.n_demonstrations == 0 { ask_first(&judged) } else { choose(&judged, epsilon_m) };
+        match choice {
+            _ if round.posterior.stopped => {
+                lesson.state = LessonStatus::STOPPED;
+                lesson.reason = "the person said that nothing is acceptable".into();
+            }
+            Choice::Taught { bound_m } => {
+                lesson.state = LessonStatus::TAUGHT;
+                lesson.reason =
+                    format!("the bound, {:.1} cm, is below ε = {:.1} cm", 100.0 * bound_m, 100.0 * epsilon_m);
+            }
+            Choice::Nothing => {
+                lesson.state = LessonStatus::GAVE_UP;
+                lesson.reason = "there is no free spot for the target on any table I can imagine".into();
+            }
+            Choice::Ask(_) if i64::from(lesson.questions_asked) >= self.settings.max_questions => {
+                lesson.state = LessonStatus::GAVE_UP;
+                lesson.reason = format!(
+                    "{} questions were answered and the bound is not below ε = {:.1} cm; raise max_questions or epsilon_m",
+                    lesson.questions_asked,
+                    100.0 * epsilon_m
+                );
+            }
+            Choice::Ask(index) => {
+                let asked = self.ask(round, bounds, index);
+                lesson.query_id = asked.id.clone();
+                lesson.questions_asked += 1;
+                query = Some(asked);
+            }
+        }
+        let mut outputs = Vec::new();
+        if let Some(query) = query {
+            outputs.push(Output::Query(query.clone()));
+            self.query = Some(query);
+        }
+        outputs.push(Output::Lesson(lesson.clone()));
+        self.lesson = Some(lesson);
+        outputs
+    }
+
+    fn ask(&self, round: &Round, bounds: &PerformanceBounds, index: usize) -> Box<PlacementQuery> {
+        let bound = &bounds.bounds[index];
+        let posterior = &round.posterior;
+        let question = format!(
+            "Where does the {} belong {}?",
+            round.base.target.label,
+            words::difference(&round.base, &round.scenes[index])
+        );
+        Box::new(PlacementQuery {
+            header: posterior.header.clone(),
+            id: query_id(self.settings.seed, posterior),
+            revision: posterior.revision,
+            scene: round.candidates.scenes[index].clone(),
+            reason: format!("{question} {}", words::why(bound, bounds, posterior.n_demonstrations)),
+            bound_m: bound.bound_m,
+            epsilon_m: self.settings.epsilon_m,
+            n_candidates: u32::try_from(bounds.bounds.len()).unwrap_or(u32::MAX),
+        })
+    }
+
+    fn republish(&self) -> Vec<Output> {
+        let mut outputs = Vec::new();
+        match (&self.round, &self.lesson) {
+            (Some(round), None) => outputs.push(Output::Candidates(round.candidates.clone())),
+            (_, Some(lesson)) => {
+                outputs.extend(self.query.clone().map(Output::Query));
+                outputs.push(Output::Lesson(lesson.clone()));
+            }
+            (None, None) => {}
+        }
+        outputs
+    }
+}
+
+fn judged(bound: &PlacementBound) -> Judged {
+    let known = bound.outcome == PlacementBound::BOUND && bound.bound_m.is_finite();
+    Judged { bound_m: known.then_some(bound.bound_m), point_estimate_m: bound.point_estimate_m }
+}
+
+/// The first candidate on which the target has a place.
+fn ask_first(judged: &[Judged]) -> Choice {
+    match judged.iter().position(|j| !j.point_estimate_m.is_nan()) {
+        Some(index) => Choice::Ask(index),
+        None => Choice::Nothing,
+    }
+}
+
+/// Unique within a session, since every accepted event makes a new revision; the hash ties it to the evidence.
+fn query_id(seed: i64, posterior: &Posterior) -> String {
+    let mut hash = Sha256::new();
+    hash.update(seed.to_le_bytes());
+    hash.update(posterior.revision.to_le_bytes());
+    hash.update(posterior.evidence_hash.as_bytes());
+    let digest = hash.finalize();
+    let short: String = digest.iter().take(4).map(|byte| format!("{byte:02x}")).collect();
+    format!("q{}-{short}", posterior.revision)
+}

@@ -1,0 +1,34 @@
+//! The node on the graph.
+
+use crate::{ActiveQuery, Event, Output, Settings};
+use apprentice_msgs::msg::{Candidates, LessonStatus, PlacementQuery};
+use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
+use std::time::Duration;
+
+/// Runs the node until it is asked to stop.
+pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
+    let settings: Settings = arguments.settings()?;
+    let mut bus = Bus::open(graph, arguments, &settings)?;
+    let candidates = bus.publisher::<Candidates>("candidates", Qos::State)?;
+    let query = bus.publisher::<PlacementQuery>("query", Qos::State)?;
+    let lesson = bus.publisher::<LessonStatus>("lesson", Qos::State)?;
+    bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
+    bus.subscribe("bounds", Qos::State, |message| Event::Bounds(Box::new(message)))?;
+    bus.every(Duration::from_secs_f64(settings.republish_period_s), || Event::Republish);
+    let mut node = ActiveQuery::new(settings);
+    while let Some((now, event)) = bus.next() {
+        for output in node.step(now, event) {
+            match output {
+                Output::Candidates(message) => candidates.publish(&message)?,
+                Output::Query(message) => query.publish(&message)?,
+                Output::Lesson(message) => {
+                    let state = [("state", message.state.to_string()), ("query", message.query_id.clone())];
+                    bus.status(Level::Ok, message.reason.clone(), &state);
+                    lesson.publish(&message)?;
+                }
+                Output::Warn(text) => log::warn!("{text}"),
+            }
+        }
+    }
+    Ok(())
+}

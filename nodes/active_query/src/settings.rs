@@ -1,0 +1,62 @@
+//! Parameters of the node.
+
+use bus::{NodeSettings, ParameterSpec, Range};
+use serde::{Deserialize, Serialize};
+
+/// Parameters of `active_query`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Seed of the hypothetical tables.
+    pub seed: i64,
+    /// The lesson ends when the bound is below this, metres.
+    pub epsilon_m: f64,
+    /// Hypothetical tables a question is chosen from.
+    pub n_candidates: i64,
+    /// Questions after which the lesson is given up.
+    pub max_questions: i64,
+    /// How often the pending question and the lesson's state are sent again, seconds.
+    pub republish_period_s: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { seed: 1, epsilon_m: 0.10, n_candidates: 50, max_questions: 60, republish_period_s: 2.0 }
+    }
+}
+
+impl NodeSettings for Settings {
+    const NODE: &'static str = "active_query";
+    const ABOUT: &'static str = "Asks the question that removes most of the risk, or says that the robot is taught";
+    const PARAMETERS: &'static [ParameterSpec] = &[
+        ParameterSpec {
+            name: "seed",
+            about: "seed of the hypothetical tables",
+            range: Range::Integer { min: 0, max: i64::MAX },
+        },
+        ParameterSpec {
+            name: "epsilon_m",
+            about: "the lesson ends when the bound on the placement error is below this, metres",
+            range: Range::Float { min: 0.001, max: 10.0 },
+        },
+        ParameterSpec {
+            name: "n_candidates",
+            about: "hypothetical tables a question is chosen from",
+            range: Range::Integer { min: 1, max: 1000 },
+        },
+        ParameterSpec {
+            name: "max_questions",
+            about: "questions after which the lesson is given up",
+            range: Range::Integer { min: 1, max: 10_000 },
+        },
+        ParameterSpec {
+            name: "republish_period_s",
+            about: "how often the pending question and the state of the lesson are sent again, seconds",
+            range: Range::Float { min: 0.1, max: 3600.0 },
+        },
+    ];
+
+    fn seed(&self) -> u64 {
+        self.seed.unsigned_abs()
+    }
+}

@@ -1,0 +1,38 @@
+//! The sentences an operator reads.
+
+use apprentice_msgs::msg::{PerformanceBounds, PlacementBound};
+use scene::Scene;
+
+/// How a hypothetical table differs from the one before: "plate 1 at (0.31, 0.72) m".
+pub(crate) fn difference(from: &Scene, to: &Scene) -> String {
+    let moved = from.objects.iter().zip(&to.objects).find(|(a, b)| a.position_m != b.position_m);
+    match moved {
+        None => "on the table as it is".into(),
+        Some((_, object)) => {
+            format!("with the {} at ({:.2}, {:.2}) m", object.label, object.position_m.x, object.position_m.y)
+        }
+    }
+}
+
+/// Why a table is asked about.
+pub(crate) fn why(bound: &PlacementBound, bounds: &PerformanceBounds, n_demonstrations: u64) -> String {
+    if n_demonstrations == 0 {
+        return "I have not been shown anything yet.".into();
+    }
+    let of = bounds.bounds.len();
+    if bound.outcome == PlacementBound::BOUND {
+        let tables = if of == 1 { String::new() } else { format!(", the most of {of} tables I imagined") };
+        format!(
+            "Here I could still be {:.1} cm off ({:.0} % sure that it is no more for {:.0} in 100 of the rewards that fit){tables}.",
+            100.0 * bound.bound_m,
+            100.0 * (1.0 - bounds.delta),
+            100.0 * bounds.alpha,
+        )
+    } else {
+        format!(
+            "Here I cannot bound my error yet; among the rewards that fit, {:.0} in 100 put it within {:.1} cm.",
+            100.0 * bounds.alpha,
+            100.0 * bound.point_estimate_m
+        )
+    }
+}

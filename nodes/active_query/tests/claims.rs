@@ -1,0 +1,172 @@
+//! What is asked, when the lesson ends, and that outputs are a function of the messages.
+
+use active_query::{ActiveQuery, Event, Output, Settings};
+use apprentice_msgs::builtin_interfaces::Time;
+use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
+use apprentice_msgs::msg::{
+    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior, SceneObject, TableScene,
+};
+use bus::testing::check_parameters;
+
+fn object(id: &str, x: f64, y: f64) -> SceneObject {
+    SceneObject {
+        id: id.into(),
+        label: id.into(),
+        shape: SceneObject::SHAPE_CYLINDER,
+        size_m: Vector3 { x: 0.1, y: 0.1, z: 0.1 },
+        pose: Pose { position: Point { x, y, z: 0.0 }, orientation: Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 } },
+        supports: false,
+    }
+}
+
+fn posterior(revision: u64, n_demonstrations: u64) -> Posterior {
+    Posterior {
+        revision,
+        n_demonstrations,
+        n_answers: revision,
+        evidence_hash: format!("hash {n_demonstrations}"),
+        scene: TableScene {
+            id: "task".into(),
+            width_m: 1.0,
+            depth_m: 1.0,
+            objects: vec![object("cup", 0.25, 0.25), object("plate", 0.75, 0.75)],
+            target: object("vase", 0.0, 0.0),
+            ..TableScene::default()
+        },
+        ..Posterior::default()
+    }
+}
+
+fn bounds(revision: u64, bounds_m: &[f64]) -> PerformanceBounds {
+    let bound = |&bound_m: &f64| PlacementBound {
+        outcome: if bound_m.is_nan() { PlacementBound::NOT_ENOUGH_SAMPLES } else { PlacementBound::BOUND },
+        bound_m,
+        point_estimate_m: 0.5,
+        ..PlacementBound::default()
+    };
+    PerformanceBounds {
+        revision,
+        bounds: bounds_m.iter().map(bound).collect(),
+        alpha: 0.95,
+        delta: 0.05,
+        ..PerformanceBounds::default()
+    }
+}
+
+fn settings() -> Settings {
+    Settings { n_candidates: 3, ..Settings::default() }
+}
+
+fn step(node: &mut ActiveQuery, event: Event) -> Vec<Output> {
+    node.step(Time::default(), event)
+}
+
+fn candidates(node: &mut ActiveQuery, posterior: Posterior) -> Candidates {
+    match step(node, Event::Posterior(Box::new(posterior))).as_slice() {
+        [Output::Candidates(candidates)] => candidates.clone(),
+        other => panic!("candidates were expected, got {other:?}"),
+    }
+}
+
+fn verdict(node: &mut ActiveQuery, bounds: PerformanceBounds) -> (Option<PlacementQuery>, LessonStatus) {
+    match step(node, Event::Bounds(Box::new(bounds))).as_slice() {
+        [Output::Query(query), Output::Lesson(lesson)] => (Some((**query).clone()), lesson.clone()),
+        [Output::Lesson(lesson)] => (None, lesson.clone()),
+        other => panic!("a lesson was expected, got {other:?}"),
+    }
+}
+
+#[test]
+fn parameters_are_documented() {
+    check_parameters::<Settings>();
+}
+
+#[test]
+fn the_first_question_is_about_the_table_as_it_is_however_small_the_bound() {
+    let mut node = ActiveQuery::new(settings());
+    let asked = candidates(&mut node, posterior(0, 0));
+    assert_eq!(asked.scenes.len(), 1);
+    assert_eq!(asked.scenes[0].objects, posterior(0, 0).scene.objects);
+    let (query, lesson) = verdict(&mut node, bounds(0, &[0.001]));
+    assert_eq!(query.expect("nothing has been shown").scene.objects, posterior(0, 0).scene.objects);
+    assert_eq!((lesson.state, lesson.questions_asked), (LessonStatus::ASKING, 1));
+}
+
+#[test]
+fn the_table_with_the_largest_bound_is_asked_about() {
+    let mut node = ActiveQuery::new(settings());
+    let asked = candidates(&mut node, posterior(1, 1));
+    assert_eq!(asked.scenes.len(), 3);
+    let (query, lesson) = verdict(&mut node, bounds(1, &[0.2, 0.4, 0.3]));
+    let query = query.expect("the bound is above ε");
+    assert_eq!(query.scene, asked.scenes[1]);
+    assert_eq!(query.bound_m, 0.4);
+    assert!(query.reason.contains("40.0 cm"), "{}", query.reason);
+    assert_eq!((lesson.query_id, lesson.questions_asked), (query.id, 2));
+}
+
+#[test]
+fn the_lesson_ends_below_epsilon_at_a_stop_and_after_too_many_questions() {
+    let end = |posterior: Posterior, bound_m: f64, settings: Settings| {
+        let mut node = ActiveQuery::new(settings);
+        let revision = posterior.revision;
+        let n = candidates(&mut node, posterior).scenes.len();
+        let (query, lesson) = verdict(&mut node, bounds(revision, &vec![bound_m; n]));
+        (query.is_some(), lesson.state)
+    };
+    assert_eq!(end(posterior(1, 1), 0.099, settings()), (false, LessonStatus::TAUGHT));
+    assert_eq!(end(posterior(1, 1), 0.1, settings()), (true, LessonStatus::ASKING));
+    assert_eq!(end(posterior(1, 1), f64::NAN, settings()), (true, LessonStatus::ASKING));
+    assert_eq!(end(Posterior { stopped: true, ..posterior(1, 1) }, 0.2, settings()), (false, LessonStatus::STOPPED));
+    let few = Settings { max_questions: 5, ..settings() };
+    assert_eq!(end(posterior(5, 5), 0.2, few.clone()), (false, LessonStatus::GAVE_UP));
+    assert_eq!(end(posterior(4, 4), 0.2, few), (true, LessonStatus::ASKING));
+}
+
+#[test]
+fn bounds_of_another_revision_or_of_other_tables_ask_nothing() {
+    let mut node = ActiveQuery::new(settings());
+    candidates(&mut node, posterior(2, 2));
+    assert!(step(&mut node, Event::Bounds(Box::new(bounds(1, &[0.2; 3])))).is_empty());
+    let wrong = step(&mut node, Event::Bounds(Box::new(bounds(2, &[0.2; 2]))));
+    assert!(matches!(wrong.as_slice(), [Output::Warn(text)] if text.contains("judge 2 tables, 3 were asked for")));
+    assert!(verdict(&mut node, bounds(2, &[0.2; 3])).0.is_some());
+}
+
+#[test]
+fn what_is_pending_is_sent_again_unchanged() {
+    let mut node = ActiveQuery::new(settings());
+    assert!(step(&mut node, Event::Republish).is_empty());
+    let asked = candidates(&mut node, posterior(1, 1));
+    assert!(matches!(step(&mut node, Event::Republish).as_slice(), [Output::Candidates(again)] if *again == asked));
+    let (query, lesson) = verdict(&mut node, bounds(1, &[0.2; 3]));
+    let again = step(&mut node, Event::Republish);
+    let [Output::Query(q), Output::Lesson(l)] = again.as_slice() else { panic!("{again:?}") };
+    assert_eq!(**q, query.expect("the bound is above ε"));
+    assert_eq!(l.query_id, lesson.query_id);
+    assert!(step(&mut node, Event::Bounds(Box::new(bounds(1, &[0.05; 3])))).is_empty(), "a repetition changes nothing");
+}
+
+#[test]
+fn a_question_depends_on_the_evidence_alone() {
+    let ask = |warm: bool| {
+        let mut node = ActiveQuery::new(settings());
+        if warm {
+            candidates(&mut node, posterior(0, 0));
+            verdict(&mut node, bounds(0, &[0.3]));
+        }
+        candidates(&mut node, posterior(1, 1));
+        verdict(&mut node, bounds(1, &[0.2; 3])).0
+    };
+    assert_eq!(ask(false), ask(true));
+}
+
+#[test]
+fn a_posterior_with_a_broken_scene_is_told_and_survived() {
+    let mut node = ActiveQuery::new(settings());
+    let mut broken = posterior(1, 1);
+    broken.scene.objects[0].pose.position.x = f64::NAN;
+    let outputs = step(&mut node, Event::Posterior(Box::new(broken)));
+    assert!(matches!(outputs.as_slice(), [Output::Warn(text)] if text.contains("'cup'")), "{outputs:?}");
+    assert_eq!(candidates(&mut node, posterior(1, 1)).scenes.len(), 3);
+}

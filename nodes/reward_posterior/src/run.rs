@@ -1,0 +1,125 @@
+//! The node on the graph, and its journal on disk.
+
+use crate::journal::{MAGIC, read_journal};
+use crate::{Event, Output, RewardPosterior, Settings};
+use apprentice_msgs::msg::{EvidenceLog, EvidenceReceipt, Posterior};
+use bus::{Arguments, Bus, Graph, Level, NodeError, Publisher, Qos};
+use std::fs::{File, OpenOptions};
+use std::io::{Read, Write};
+use std::time::Duration;
+
+/// A journal above this is not read.
+const MAX_JOURNAL: u64 = 256 << 20;
+
+/// Runs the node until it is asked to stop.
+pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
+    let settings: Settings = arguments.settings()?;
+    let mut node = RewardPosterior::new(settings.clone());
+    let (journal, restored) = open_journal(&settings.journal, &mut node)?;
+    let mut bus = Bus::open(graph, arguments, &settings)?;
+    let mut out = Out {
+        journal,
+        path: settings.journal.clone(),
+        receipt: bus.publisher("receipt", Qos::Event)?,
+        evidence: bus.publisher("evidence", Qos::State)?,
+        posterior: bus.publisher("posterior", Qos::State)?,
+    };
+    bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
+    bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
+    bus.subscribe("demonstration", Qos::Event, |message| Event::Demonstration(Box::new(message)))?;
+    bus.subscribe("retraction", Qos::Event, |message| Event::Retraction(Box::new(message)))?;
+    bus.subscribe("response", Qos::Event, |message| Event::Response(Box::new(message)))?;
+    bus.every(Duration::from_secs(1), || Event::Tick);
+    if node.evidence().revision() > 0 {
+        log::info!("{} accepted events were restored from the journal", node.evidence().revision());
+    }
+    let recompute = bus.sender();
+    let mut send = |bus: &Bus<Event>, outputs: Vec<Output>| -> Result<(), NodeError> {
+        for output in outputs {
+            match output {
+                Output::Recompute => recompute.send(Event::Recompute),
+                other => out.send(bus, other)?,
+            }
+        }
+        Ok(())
+    };
+    send(&bus, restored)?;
+    while let Some((now, event)) = bus.next() {
+        let outputs = node.step(now, event);
+        send(&bus, outputs)?;
+    }
+    Ok(())
+}
+
+struct Out {
+    journal: Option<File>,
+    path: String,
+    receipt: Publisher<EvidenceReceipt>,
+    evidence: Publisher<EvidenceLog>,
+    posterior: Publisher<Posterior>,
+}
+
+impl Out {
+    fn send(&mut self, bus: &Bus<Event>, output: Output) -> Result<(), NodeError> {
+        match output {
+            Output::Journal(bytes) => {
+                if let Some(file) = &mut self.journal {
+                    // Evidence that is not safe must not be acknowledged: better no node than a forgetful one.
+                    file.write_all(&bytes).and_then(|()| file.sync_data()).map_err(|error| {
+                        NodeError::Failed(format!("evidence cannot be written to the journal '{}': {error}", self.path))
+                    })?;
+                }
+            }
+            Output::Receipt(message) => self.receipt.publish(&message)?,
+            Output::Evidence(message) => self.evidence.publish(&message)?,
+            Output::Posterior(message) => {
+                let level = if message.outcome == Posterior::READY { Level::Ok } else { Level::Warn };
+                let facts = [
+                    ("revision", message.revision.to_string()),
+                    ("demonstrations", message.n_demonstrations.to_string()),
+                    ("rhat_max", message.rhat_max.to_string()),
+                    ("ess_bulk_min", message.ess_bulk_min.to_string()),
+                    ("acceptance", message.acceptance.to_string()),
+                ];
+                bus.status(level, format!("revision {} {}", message.revision, message.reason), &facts);
+                self.posterior.publish(&message)?;
+            }
+            Output::Warn(text) => log::warn!("{text}"),
+            Output::Recompute => {}
+        }
+        Ok(())
+    }
+}
+
+/// Opens the journal, restores the node from it and cuts an unfinished last frame off.
+fn open_journal(path: &str, node: &mut RewardPosterior) -> Result<(Option<File>, Vec<Output>), NodeError> {
+    if path.is_empty() {
+        return Ok((None, Vec::new()));
+    }
+    let failed =
+        |what: &str, error: &dyn std::fmt::Display| NodeError::Start(format!("journal '{path}': {what}{error}"));
+    let mut file = OpenOptions::new()
+        .read(true)
+        .append(true)
+        .create(true)
+        .open(path)
+        .map_err(|error| failed("it cannot be opened: ", &error))?;
+    let length = file.metadata().map_err(|error| failed("", &error))?.len();
+    if length > MAX_JOURNAL {
+        return Err(failed("", &format!("it has {length} bytes; at most {MAX_JOURNAL} are read")));
+    }
+    let mut bytes = Vec::new();
+    (&mut file).take(MAX_JOURNAL).read_to_end(&mut bytes).map_err(|error| failed("it cannot be read: ", &error))?;
+    let (entries, used) = read_journal(&bytes).map_err(|error| failed("", &error))?;
+    if used < bytes.len() {
+        log::warn!("journal '{path}': the last {} bytes were cut off by a crash and are dropped", bytes.len() - used);
+        file.set_len(used as u64).map_err(|error| failed("it cannot be shortened: ", &error))?;
+    }
+    if used == 0 {
+        file.write_all(MAGIC)
+            .and_then(|()| file.sync_all())
+            .map_err(|error| failed("it cannot be written: ", &error))?;
+    }
+    let restored = node.restore(entries).map_err(|error| failed("", &error))?;
+    Ok((Some(file), restored))
+}
