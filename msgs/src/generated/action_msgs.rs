@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GoalInfo {
     /// (`unique_identifier_msgs/UUID`)
-    pub goal_id: crate::unique_identifier_msgs::UUID,
+    pub goal_id: super::unique_identifier_msgs::UUID,
     /// (`builtin_interfaces/Time`)
-    pub stamp: crate::builtin_interfaces::Time,
+    pub stamp: super::builtin_interfaces::Time,
 }
 
 impl crate::Message for GoalInfo {
@@ -21,7 +21,7 @@ impl crate::Message for GoalInfo {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GoalStatus {
     /// (`GoalInfo`)
-    pub goal_info: crate::action_msgs::GoalInfo,
+    pub goal_info: super::action_msgs::GoalInfo,
     /// (`int8`)
     pub status: i8,
 }
@@ -51,7 +51,7 @@ impl crate::Message for GoalStatus {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GoalStatusArray {
     /// (`GoalStatus[]`)
-    pub status_list: Vec<crate::action_msgs::GoalStatus>,
+    pub status_list: Vec<super::action_msgs::GoalStatus>,
 }
 
 impl crate::Message for GoalStatusArray {
@@ -62,7 +62,7 @@ impl crate::Message for GoalStatusArray {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CancelGoalRequest {
     /// (`GoalInfo`)
-    pub goal_info: crate::action_msgs::GoalInfo,
+    pub goal_info: super::action_msgs::GoalInfo,
 }
 
 impl crate::Message for CancelGoalRequest {
@@ -75,7 +75,7 @@ pub struct CancelGoalResponse {
     /// (`int8`)
     pub return_code: i8,
     /// (`GoalInfo[]`)
-    pub goals_canceling: Vec<crate::action_msgs::GoalInfo>,
+    pub goals_canceling: Vec<super::action_msgs::GoalInfo>,
 }
 
 impl CancelGoalResponse {

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DiagnosticArray {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`DiagnosticStatus[]`)
-    pub status: Vec<crate::diagnostic_msgs::DiagnosticStatus>,
+    pub status: Vec<super::diagnostic_msgs::DiagnosticStatus>,
 }
 
 impl crate::Message for DiagnosticArray {
@@ -29,7 +29,7 @@ pub struct DiagnosticStatus {
     /// (`string`)
     pub hardware_id: std::string::String,
     /// (`KeyValue[]`)
-    pub values: Vec<crate::diagnostic_msgs::KeyValue>,
+    pub values: Vec<super::diagnostic_msgs::KeyValue>,
 }
 
 impl DiagnosticStatus {

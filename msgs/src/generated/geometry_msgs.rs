@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accel {
     /// (`Vector3`)
-    pub linear: crate::geometry_msgs::Vector3,
+    pub linear: super::geometry_msgs::Vector3,
     /// (`Vector3`)
-    pub angular: crate::geometry_msgs::Vector3,
+    pub angular: super::geometry_msgs::Vector3,
 }
 
 impl crate::Message for Accel {
@@ -51,9 +51,9 @@ impl crate::Message for Point32 {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointStamped {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`Point`)
-    pub point: crate::geometry_msgs::Point,
+    pub point: super::geometry_msgs::Point,
 }
 
 impl crate::Message for PointStamped {
@@ -64,9 +64,9 @@ impl crate::Message for PointStamped {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// (`Point`)
-    pub position: crate::geometry_msgs::Point,
+    pub position: super::geometry_msgs::Point,
     /// (`Quaternion`)
-    pub orientation: crate::geometry_msgs::Quaternion,
+    pub orientation: super::geometry_msgs::Quaternion,
 }
 
 impl crate::Message for Pose {
@@ -77,9 +77,9 @@ impl crate::Message for Pose {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PoseArray {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`Pose[]`)
-    pub poses: Vec<crate::geometry_msgs::Pose>,
+    pub poses: Vec<super::geometry_msgs::Pose>,
 }
 
 impl crate::Message for PoseArray {
@@ -90,9 +90,9 @@ impl crate::Message for PoseArray {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PoseStamped {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`Pose`)
-    pub pose: crate::geometry_msgs::Pose,
+    pub pose: super::geometry_msgs::Pose,
 }
 
 impl crate::Message for PoseStamped {
@@ -103,7 +103,7 @@ impl crate::Message for PoseStamped {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PoseWithCovariance {
     /// (`Pose`)
-    pub pose: crate::geometry_msgs::Pose,
+    pub pose: super::geometry_msgs::Pose,
     /// (`float64[36]`)
     #[serde(with = "serde_big_array::BigArray")]
     pub covariance: [f64; 36],
@@ -126,9 +126,9 @@ impl crate::Message for PoseWithCovariance {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PoseWithCovarianceStamped {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`PoseWithCovariance`)
-    pub pose: crate::geometry_msgs::PoseWithCovariance,
+    pub pose: super::geometry_msgs::PoseWithCovariance,
 }
 
 impl crate::Message for PoseWithCovarianceStamped {
@@ -167,9 +167,9 @@ impl crate::Message for Quaternion {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct QuaternionStamped {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`Quaternion`)
-    pub quaternion: crate::geometry_msgs::Quaternion,
+    pub quaternion: super::geometry_msgs::Quaternion,
 }
 
 impl crate::Message for QuaternionStamped {
@@ -180,9 +180,9 @@ impl crate::Message for QuaternionStamped {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Transform {
     /// (`Vector3`)
-    pub translation: crate::geometry_msgs::Vector3,
+    pub translation: super::geometry_msgs::Vector3,
     /// (`Quaternion`)
-    pub rotation: crate::geometry_msgs::Quaternion,
+    pub rotation: super::geometry_msgs::Quaternion,
 }
 
 impl crate::Message for Transform {
@@ -193,11 +193,11 @@ impl crate::Message for Transform {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TransformStamped {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`string`)
     pub child_frame_id: std::string::String,
     /// (`Transform`)
-    pub transform: crate::geometry_msgs::Transform,
+    pub transform: super::geometry_msgs::Transform,
 }
 
 impl crate::Message for TransformStamped {
@@ -208,9 +208,9 @@ impl crate::Message for TransformStamped {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Twist {
     /// (`Vector3`)
-    pub linear: crate::geometry_msgs::Vector3,
+    pub linear: super::geometry_msgs::Vector3,
     /// (`Vector3`)
-    pub angular: crate::geometry_msgs::Vector3,
+    pub angular: super::geometry_msgs::Vector3,
 }
 
 impl crate::Message for Twist {
@@ -221,9 +221,9 @@ impl crate::Message for Twist {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TwistStamped {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`Twist`)
-    pub twist: crate::geometry_msgs::Twist,
+    pub twist: super::geometry_msgs::Twist,
 }
 
 impl crate::Message for TwistStamped {
@@ -249,9 +249,9 @@ impl crate::Message for Vector3 {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Vector3Stamped {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`Vector3`)
-    pub vector: crate::geometry_msgs::Vector3,
+    pub vector: super::geometry_msgs::Vector3,
 }
 
 impl crate::Message for Vector3Stamped {
@@ -262,9 +262,9 @@ impl crate::Message for Vector3Stamped {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Wrench {
     /// (`Vector3`)
-    pub force: crate::geometry_msgs::Vector3,
+    pub force: super::geometry_msgs::Vector3,
     /// (`Vector3`)
-    pub torque: crate::geometry_msgs::Vector3,
+    pub torque: super::geometry_msgs::Vector3,
 }
 
 impl crate::Message for Wrench {
@@ -275,9 +275,9 @@ impl crate::Message for Wrench {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct WrenchStamped {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`Wrench`)
-    pub wrench: crate::geometry_msgs::Wrench,
+    pub wrench: super::geometry_msgs::Wrench,
 }
 
 impl crate::Message for WrenchStamped {

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Candidates {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// of the posterior (`uint64`)
     pub revision: u64,
     /// (`TableScene[]`)
-    pub scenes: Vec<crate::msg::TableScene>,
+    pub scenes: Vec<super::msg::TableScene>,
 }
 
 impl crate::Message for Candidates {
@@ -23,11 +23,11 @@ impl crate::Message for Candidates {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct EvidenceLog {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// the first scene the session saw; names the weights (`TableScene`)
-    pub task: crate::msg::TableScene,
+    pub task: super::msg::TableScene,
     /// (`EvidenceRecord[]`)
-    pub records: Vec<crate::msg::EvidenceRecord>,
+    pub records: Vec<super::msg::EvidenceRecord>,
 }
 
 impl crate::Message for EvidenceLog {
@@ -38,7 +38,7 @@ impl crate::Message for EvidenceLog {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EvidenceReceipt {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// of the evidence (`string`)
     pub id: std::string::String,
     /// (`uint8`)
@@ -71,13 +71,13 @@ pub struct EvidenceRecord {
     pub kind: u8,
     /// (`PlacementDemonstration[<=1]`)
     #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
-    pub demonstration: Vec<crate::msg::PlacementDemonstration>,
+    pub demonstration: Vec<super::msg::PlacementDemonstration>,
     /// (`Retraction[<=1]`)
     #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
-    pub retraction: Vec<crate::msg::Retraction>,
+    pub retraction: Vec<super::msg::Retraction>,
     /// (`QueryResponse[<=1]`)
     #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
-    pub response: Vec<crate::msg::QueryResponse>,
+    pub response: Vec<super::msg::QueryResponse>,
 }
 
 impl EvidenceRecord {
@@ -97,7 +97,7 @@ impl crate::Message for EvidenceRecord {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Heartbeat {
     /// (`builtin_interfaces/Time`)
-    pub stamp: crate::builtin_interfaces::Time,
+    pub stamp: super::builtin_interfaces::Time,
     /// (`string`)
     pub node: std::string::String,
     /// new at every start (`string`)
@@ -114,7 +114,7 @@ impl crate::Message for Heartbeat {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct LessonStatus {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`uint64`)
     pub revision: u64,
     /// (`uint8`)
@@ -175,7 +175,7 @@ impl crate::Message for NodeSettings {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PerformanceBounds {
     /// stamp of the posterior (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// of the posterior (`uint64`)
     pub revision: u64,
     /// as in PlacementBound; a bound only if every scene has one (`uint8`)
@@ -187,7 +187,7 @@ pub struct PerformanceBounds {
     /// index of that scene (`uint32`)
     pub worst: u32,
     /// one per scene, in the order of the candidates (`PlacementBound[]`)
-    pub bounds: Vec<crate::msg::PlacementBound>,
+    pub bounds: Vec<super::msg::PlacementBound>,
     /// (`float64`)
     pub alpha: f64,
     /// (`float64`)
@@ -230,7 +230,7 @@ pub struct PlacementBound {
     /// (`uint8`)
     pub outcome: u8,
     /// judged: best under the MAP weights, metres (`geometry_msgs/Point`)
-    pub placement: crate::geometry_msgs::Point,
+    pub placement: super::geometry_msgs::Point,
     /// upper confidence bound on the alpha-VaR of the loss; NaN without one (`float64`)
     pub bound_m: f64,
     /// empirical alpha-quantile (`float64`)
@@ -270,7 +270,7 @@ impl crate::Message for PlacementBound {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlacementDemonstration {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// unique within a session (`string`)
     pub id: std::string::String,
     /// the question this answers; empty: volunteered (`string`)
@@ -278,9 +278,9 @@ pub struct PlacementDemonstration {
     /// who: a node or a person (`string`)
     pub source: std::string::String,
     /// (`TableScene`)
-    pub scene: crate::msg::TableScene,
+    pub scene: super::msg::TableScene,
     /// metres, in the scene's frame (`geometry_msgs/Point`)
-    pub placement: crate::geometry_msgs::Point,
+    pub placement: super::geometry_msgs::Point,
     /// (`uint8`)
     pub confidence: u8,
 }
@@ -302,25 +302,25 @@ impl crate::Message for PlacementDemonstration {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlacementPlan {
     /// stamp of the posterior (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// of the posterior (`uint64`)
     pub revision: u64,
     /// the question this is the robot's guess for; empty: a plan for the table as it is (`string`)
     pub query_id: std::string::String,
     /// what was planned for (`TableScene`)
-    pub scene: crate::msg::TableScene,
+    pub scene: super::msg::TableScene,
     /// SHA-256 of the robot description, hex; empty without one (`string`)
     pub robot_hash: std::string::String,
     /// where the arm stood; empty without a robot (`sensor_msgs/JointState`)
-    pub start: crate::sensor_msgs::JointState,
+    pub start: super::sensor_msgs::JointState,
     /// (`uint8`)
     pub outcome: u8,
     /// (`string`)
     pub reason: std::string::String,
     /// best under the MAP weights, metres (`geometry_msgs/Point`)
-    pub map_placement: crate::geometry_msgs::Point,
+    pub map_placement: super::geometry_msgs::Point,
     /// smallest CVaR of the distance to the person's placement (`geometry_msgs/Point`)
-    pub robust_placement: crate::geometry_msgs::Point,
+    pub robust_placement: super::geometry_msgs::Point,
     /// (`float64`)
     pub map_cvar_m: f64,
     /// (`float64`)
@@ -330,7 +330,7 @@ pub struct PlacementPlan {
     /// the lesson is taught: the robot may move (`bool`)
     pub inside_bound: bool,
     /// (`trajectory_msgs/JointTrajectory`)
-    pub trajectory: crate::trajectory_msgs::JointTrajectory,
+    pub trajectory: super::trajectory_msgs::JointTrajectory,
     /// the two maps are map_side x map_side cells, row-major, first row at y = 0 (`uint32`)
     pub map_side: u32,
     /// mean reward over the draws (`float32[]`)
@@ -367,13 +367,13 @@ impl crate::Message for PlacementPlan {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlacementQuery {
     /// stamp of the posterior (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`string`)
     pub id: std::string::String,
     /// of the posterior it comes from (`uint64`)
     pub revision: u64,
     /// (`TableScene`)
-    pub scene: crate::msg::TableScene,
+    pub scene: super::msg::TableScene,
     /// why this is asked, in words (`string`)
     pub reason: std::string::String,
     /// in this scene; NaN without one (`float64`)
@@ -392,7 +392,7 @@ impl crate::Message for PlacementQuery {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Posterior {
     /// stamp of the newest accepted evidence (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// number of accepted events (`uint64`)
     pub revision: u64,
     /// SHA-256 over the active demonstrations, hex (`string`)
@@ -404,7 +404,7 @@ pub struct Posterior {
     /// the person said that nothing is acceptable, and has not taken it back (`bool`)
     pub stopped: bool,
     /// of the newest active demonstration, else of the task (`TableScene`)
-    pub scene: crate::msg::TableScene,
+    pub scene: super::msg::TableScene,
     /// (`uint8`)
     pub outcome: u8,
     /// (`string`)
@@ -456,7 +456,7 @@ impl crate::Message for Posterior {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct QueryResponse {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// unique within a session (`string`)
     pub id: std::string::String,
     /// (`string`)
@@ -486,7 +486,7 @@ impl crate::Message for QueryResponse {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Retraction {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// unique within a session (`string`)
     pub id: std::string::String,
     /// what is taken back (`string`)
@@ -512,9 +512,9 @@ pub struct SceneObject {
     /// (`uint8`)
     pub shape: u8,
     /// bounding box; a cylinder has size_m.x == size_m.y == its diameter (`geometry_msgs/Vector3`)
-    pub size_m: crate::geometry_msgs::Vector3,
+    pub size_m: super::geometry_msgs::Vector3,
     /// centre of the base; rotation about z only (`geometry_msgs/Pose`)
-    pub pose: crate::geometry_msgs::Pose,
+    pub pose: super::geometry_msgs::Pose,
     /// true: other things may be placed on it (a bowl for a spoon) (`bool`)
     pub supports: bool,
 }
@@ -534,7 +534,7 @@ impl crate::Message for SceneObject {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TableScene {
     /// frame_id: the table's frame (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// unique within a session (`string`)
     pub id: std::string::String,
     /// extent along x (`float64`)
@@ -542,9 +542,9 @@ pub struct TableScene {
     /// extent along y (`float64`)
     pub depth_m: f64,
     /// (`SceneObject[]`)
-    pub objects: Vec<crate::msg::SceneObject>,
+    pub objects: Vec<super::msg::SceneObject>,
     /// the thing to place; its pose is ignored (`SceneObject`)
-    pub target: crate::msg::SceneObject,
+    pub target: super::msg::SceneObject,
 }
 
 impl crate::Message for TableScene {

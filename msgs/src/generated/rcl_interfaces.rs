@@ -51,7 +51,7 @@ impl crate::Message for ListParametersResult {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Log {
     /// (`builtin_interfaces/Time`)
-    pub stamp: crate::builtin_interfaces::Time,
+    pub stamp: super::builtin_interfaces::Time,
     /// (`uint8`)
     pub level: u8,
     /// (`string`)
@@ -89,7 +89,7 @@ pub struct Parameter {
     /// (`string`)
     pub name: std::string::String,
     /// (`ParameterValue`)
-    pub value: crate::rcl_interfaces::ParameterValue,
+    pub value: super::rcl_interfaces::ParameterValue,
 }
 
 impl crate::Message for Parameter {
@@ -113,10 +113,10 @@ pub struct ParameterDescriptor {
     pub dynamic_typing: bool,
     /// (`FloatingPointRange[<=1]`)
     #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
-    pub floating_point_range: Vec<crate::rcl_interfaces::FloatingPointRange>,
+    pub floating_point_range: Vec<super::rcl_interfaces::FloatingPointRange>,
     /// (`IntegerRange[<=1]`)
     #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
-    pub integer_range: Vec<crate::rcl_interfaces::IntegerRange>,
+    pub integer_range: Vec<super::rcl_interfaces::IntegerRange>,
 }
 
 impl crate::Message for ParameterDescriptor {
@@ -127,15 +127,15 @@ impl crate::Message for ParameterDescriptor {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ParameterEvent {
     /// (`builtin_interfaces/Time`)
-    pub stamp: crate::builtin_interfaces::Time,
+    pub stamp: super::builtin_interfaces::Time,
     /// (`string`)
     pub node: std::string::String,
     /// (`Parameter[]`)
-    pub new_parameters: Vec<crate::rcl_interfaces::Parameter>,
+    pub new_parameters: Vec<super::rcl_interfaces::Parameter>,
     /// (`Parameter[]`)
-    pub changed_parameters: Vec<crate::rcl_interfaces::Parameter>,
+    pub changed_parameters: Vec<super::rcl_interfaces::Parameter>,
     /// (`Parameter[]`)
-    pub deleted_parameters: Vec<crate::rcl_interfaces::Parameter>,
+    pub deleted_parameters: Vec<super::rcl_interfaces::Parameter>,
 }
 
 impl crate::Message for ParameterEvent {
@@ -146,11 +146,11 @@ impl crate::Message for ParameterEvent {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ParameterEventDescriptors {
     /// (`ParameterDescriptor[]`)
-    pub new_parameters: Vec<crate::rcl_interfaces::ParameterDescriptor>,
+    pub new_parameters: Vec<super::rcl_interfaces::ParameterDescriptor>,
     /// (`ParameterDescriptor[]`)
-    pub changed_parameters: Vec<crate::rcl_interfaces::ParameterDescriptor>,
+    pub changed_parameters: Vec<super::rcl_interfaces::ParameterDescriptor>,
     /// (`ParameterDescriptor[]`)
-    pub deleted_parameters: Vec<crate::rcl_interfaces::ParameterDescriptor>,
+    pub deleted_parameters: Vec<super::rcl_interfaces::ParameterDescriptor>,
 }
 
 impl crate::Message for ParameterEventDescriptors {
@@ -250,7 +250,7 @@ impl crate::Message for DescribeParametersRequest {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct DescribeParametersResponse {
     /// (`ParameterDescriptor[]`)
-    pub descriptors: Vec<crate::rcl_interfaces::ParameterDescriptor>,
+    pub descriptors: Vec<super::rcl_interfaces::ParameterDescriptor>,
 }
 
 impl crate::Message for DescribeParametersResponse {
@@ -295,7 +295,7 @@ impl crate::Message for GetParametersRequest {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct GetParametersResponse {
     /// (`ParameterValue[]`)
-    pub values: Vec<crate::rcl_interfaces::ParameterValue>,
+    pub values: Vec<super::rcl_interfaces::ParameterValue>,
 }
 
 impl crate::Message for GetParametersResponse {
@@ -324,7 +324,7 @@ impl crate::Message for ListParametersRequest {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ListParametersResponse {
     /// (`ListParametersResult`)
-    pub result: crate::rcl_interfaces::ListParametersResult,
+    pub result: super::rcl_interfaces::ListParametersResult,
 }
 
 impl crate::Message for ListParametersResponse {
@@ -335,7 +335,7 @@ impl crate::Message for ListParametersResponse {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SetParametersRequest {
     /// (`Parameter[]`)
-    pub parameters: Vec<crate::rcl_interfaces::Parameter>,
+    pub parameters: Vec<super::rcl_interfaces::Parameter>,
 }
 
 impl crate::Message for SetParametersRequest {
@@ -346,7 +346,7 @@ impl crate::Message for SetParametersRequest {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SetParametersResponse {
     /// (`SetParametersResult[]`)
-    pub results: Vec<crate::rcl_interfaces::SetParametersResult>,
+    pub results: Vec<super::rcl_interfaces::SetParametersResult>,
 }
 
 impl crate::Message for SetParametersResponse {
@@ -357,7 +357,7 @@ impl crate::Message for SetParametersResponse {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SetParametersAtomicallyRequest {
     /// (`Parameter[]`)
-    pub parameters: Vec<crate::rcl_interfaces::Parameter>,
+    pub parameters: Vec<super::rcl_interfaces::Parameter>,
 }
 
 impl crate::Message for SetParametersAtomicallyRequest {
@@ -368,7 +368,7 @@ impl crate::Message for SetParametersAtomicallyRequest {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SetParametersAtomicallyResponse {
     /// (`SetParametersResult`)
-    pub result: crate::rcl_interfaces::SetParametersResult,
+    pub result: super::rcl_interfaces::SetParametersResult,
 }
 
 impl crate::Message for SetParametersAtomicallyResponse {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Clock {
     /// (`builtin_interfaces/Time`)
-    pub clock: crate::builtin_interfaces::Time,
+    pub clock: super::builtin_interfaces::Time,
 }
 
 impl crate::Message for Clock {

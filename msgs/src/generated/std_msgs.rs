@@ -81,7 +81,7 @@ impl crate::Message for Float32 {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Float32MultiArray {
     /// (`MultiArrayLayout`)
-    pub layout: crate::std_msgs::MultiArrayLayout,
+    pub layout: super::std_msgs::MultiArrayLayout,
     /// (`float32[]`)
     pub data: Vec<f32>,
 }
@@ -105,7 +105,7 @@ impl crate::Message for Float64 {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Float64MultiArray {
     /// (`MultiArrayLayout`)
-    pub layout: crate::std_msgs::MultiArrayLayout,
+    pub layout: super::std_msgs::MultiArrayLayout,
     /// (`float64[]`)
     pub data: Vec<f64>,
 }
@@ -118,7 +118,7 @@ impl crate::Message for Float64MultiArray {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// (`builtin_interfaces/Time`)
-    pub stamp: crate::builtin_interfaces::Time,
+    pub stamp: super::builtin_interfaces::Time,
     /// (`string`)
     pub frame_id: std::string::String,
 }
@@ -190,7 +190,7 @@ impl crate::Message for MultiArrayDimension {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MultiArrayLayout {
     /// (`MultiArrayDimension[]`)
-    pub dim: Vec<crate::std_msgs::MultiArrayDimension>,
+    pub dim: Vec<super::std_msgs::MultiArrayDimension>,
     /// (`uint32`)
     pub data_offset: u32,
 }

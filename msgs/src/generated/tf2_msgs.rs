@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TFMessage {
     /// (`geometry_msgs/TransformStamped[]`)
-    pub transforms: Vec<crate::geometry_msgs::TransformStamped>,
+    pub transforms: Vec<super::geometry_msgs::TransformStamped>,
 }
 
 impl crate::Message for TFMessage {

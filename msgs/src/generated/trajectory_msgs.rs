@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JointTrajectory {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`string[]`)
     pub joint_names: Vec<std::string::String>,
     /// (`JointTrajectoryPoint[]`)
-    pub points: Vec<crate::trajectory_msgs::JointTrajectoryPoint>,
+    pub points: Vec<super::trajectory_msgs::JointTrajectoryPoint>,
 }
 
 impl crate::Message for JointTrajectory {
@@ -31,7 +31,7 @@ pub struct JointTrajectoryPoint {
     /// (`float64[]`)
     pub effort: Vec<f64>,
     /// (`builtin_interfaces/Duration`)
-    pub time_from_start: crate::builtin_interfaces::Duration,
+    pub time_from_start: super::builtin_interfaces::Duration,
 }
 
 impl crate::Message for JointTrajectoryPoint {

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct InteractiveMarker {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`geometry_msgs/Pose`)
-    pub pose: crate::geometry_msgs::Pose,
+    pub pose: super::geometry_msgs::Pose,
     /// (`string`)
     pub name: std::string::String,
     /// (`string`)
@@ -18,9 +18,9 @@ pub struct InteractiveMarker {
     /// (`float32`)
     pub scale: f32,
     /// (`MenuEntry[]`)
-    pub menu_entries: Vec<crate::visualization_msgs::MenuEntry>,
+    pub menu_entries: Vec<super::visualization_msgs::MenuEntry>,
     /// (`InteractiveMarkerControl[]`)
-    pub controls: Vec<crate::visualization_msgs::InteractiveMarkerControl>,
+    pub controls: Vec<super::visualization_msgs::InteractiveMarkerControl>,
 }
 
 impl crate::Message for InteractiveMarker {
@@ -33,7 +33,7 @@ pub struct InteractiveMarkerControl {
     /// (`string`)
     pub name: std::string::String,
     /// (`geometry_msgs/Quaternion`)
-    pub orientation: crate::geometry_msgs::Quaternion,
+    pub orientation: super::geometry_msgs::Quaternion,
     /// (`uint8`)
     pub orientation_mode: u8,
     /// (`uint8`)
@@ -41,7 +41,7 @@ pub struct InteractiveMarkerControl {
     /// (`bool`)
     pub always_visible: bool,
     /// (`Marker[]`)
-    pub markers: Vec<crate::visualization_msgs::Marker>,
+    pub markers: Vec<super::visualization_msgs::Marker>,
     /// (`bool`)
     pub independent_marker_orientation: bool,
     /// (`string`)
@@ -85,7 +85,7 @@ impl crate::Message for InteractiveMarkerControl {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct InteractiveMarkerFeedback {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`string`)
     pub client_id: std::string::String,
     /// (`string`)
@@ -95,11 +95,11 @@ pub struct InteractiveMarkerFeedback {
     /// (`uint8`)
     pub event_type: u8,
     /// (`geometry_msgs/Pose`)
-    pub pose: crate::geometry_msgs::Pose,
+    pub pose: super::geometry_msgs::Pose,
     /// (`uint32`)
     pub menu_entry_id: u32,
     /// (`geometry_msgs/Point`)
-    pub mouse_point: crate::geometry_msgs::Point,
+    pub mouse_point: super::geometry_msgs::Point,
     /// (`bool`)
     pub mouse_point_valid: bool,
 }
@@ -131,7 +131,7 @@ pub struct InteractiveMarkerInit {
     /// (`uint64`)
     pub seq_num: u64,
     /// (`InteractiveMarker[]`)
-    pub markers: Vec<crate::visualization_msgs::InteractiveMarker>,
+    pub markers: Vec<super::visualization_msgs::InteractiveMarker>,
 }
 
 impl crate::Message for InteractiveMarkerInit {
@@ -142,9 +142,9 @@ impl crate::Message for InteractiveMarkerInit {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct InteractiveMarkerPose {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`geometry_msgs/Pose`)
-    pub pose: crate::geometry_msgs::Pose,
+    pub pose: super::geometry_msgs::Pose,
     /// (`string`)
     pub name: std::string::String,
 }
@@ -163,9 +163,9 @@ pub struct InteractiveMarkerUpdate {
     /// (`uint8`)
     pub r#type: u8,
     /// (`InteractiveMarker[]`)
-    pub markers: Vec<crate::visualization_msgs::InteractiveMarker>,
+    pub markers: Vec<super::visualization_msgs::InteractiveMarker>,
     /// (`InteractiveMarkerPose[]`)
-    pub poses: Vec<crate::visualization_msgs::InteractiveMarkerPose>,
+    pub poses: Vec<super::visualization_msgs::InteractiveMarkerPose>,
     /// (`string[]`)
     pub erases: Vec<std::string::String>,
 }
@@ -185,7 +185,7 @@ impl crate::Message for InteractiveMarkerUpdate {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Marker {
     /// (`std_msgs/Header`)
-    pub header: crate::std_msgs::Header,
+    pub header: super::std_msgs::Header,
     /// (`string`)
     pub ns: std::string::String,
     /// (`int32`)
@@ -195,31 +195,31 @@ pub struct Marker {
     /// (`int32`)
     pub action: i32,
     /// (`geometry_msgs/Pose`)
-    pub pose: crate::geometry_msgs::Pose,
+    pub pose: super::geometry_msgs::Pose,
     /// (`geometry_msgs/Vector3`)
-    pub scale: crate::geometry_msgs::Vector3,
+    pub scale: super::geometry_msgs::Vector3,
     /// (`std_msgs/ColorRGBA`)
-    pub color: crate::std_msgs::ColorRGBA,
+    pub color: super::std_msgs::ColorRGBA,
     /// (`builtin_interfaces/Duration`)
-    pub lifetime: crate::builtin_interfaces::Duration,
+    pub lifetime: super::builtin_interfaces::Duration,
     /// (`bool`)
     pub frame_locked: bool,
     /// (`geometry_msgs/Point[]`)
-    pub points: Vec<crate::geometry_msgs::Point>,
+    pub points: Vec<super::geometry_msgs::Point>,
     /// (`std_msgs/ColorRGBA[]`)
-    pub colors: Vec<crate::std_msgs::ColorRGBA>,
+    pub colors: Vec<super::std_msgs::ColorRGBA>,
     /// (`string`)
     pub texture_resource: std::string::String,
     /// (`sensor_msgs/CompressedImage`)
-    pub texture: crate::sensor_msgs::CompressedImage,
+    pub texture: super::sensor_msgs::CompressedImage,
     /// (`UVCoordinate[]`)
-    pub uv_coordinates: Vec<crate::visualization_msgs::UVCoordinate>,
+    pub uv_coordinates: Vec<super::visualization_msgs::UVCoordinate>,
     /// (`string`)
     pub text: std::string::String,
     /// (`string`)
     pub mesh_resource: std::string::String,
     /// (`MeshFile`)
-    pub mesh_file: crate::visualization_msgs::MeshFile,
+    pub mesh_file: super::visualization_msgs::MeshFile,
     /// (`bool`)
     pub mesh_use_embedded_materials: bool,
 }
@@ -269,7 +269,7 @@ impl crate::Message for Marker {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MarkerArray {
     /// (`Marker[]`)
-    pub markers: Vec<crate::visualization_msgs::Marker>,
+    pub markers: Vec<super::visualization_msgs::Marker>,
 }
 
 impl crate::Message for MarkerArray {
@@ -349,7 +349,7 @@ pub struct GetInteractiveMarkersResponse {
     /// (`uint64`)
     pub sequence_number: u64,
     /// (`InteractiveMarker[]`)
-    pub markers: Vec<crate::visualization_msgs::InteractiveMarker>,
+    pub markers: Vec<super::visualization_msgs::InteractiveMarker>,
 }
 
 impl crate::Message for GetInteractiveMarkersResponse {

@@ -280,7 +280,7 @@ fn rust_type(base: &Base) -> String {
         Base::Message { package, name } => {
             // Parts of an action are the only nested messages with an underscore.
             let kind = if name.contains('_') { Kind::Action } else { Kind::Message };
-            format!("crate::{}::{}", module(package, kind), rust_name(name))
+            format!("super::{}::{}", module(package, kind), rust_name(name))
         }
     }
 }
