@@ -78,7 +78,7 @@ fn direction(d: &Derivatives, region: &Region, at: Point, on: Option<Outline>, r
                 Point::new((hxy * gy - hyy * gx) / det, (hxy * gx - hxx * gy) / det)
             } else {
                 let slope = (gx * gx + gy * gy).sqrt();
-                if !(slope > 0.0) {
+                if slope.is_nan() || slope <= 0.0 {
                     return None;
                 }
                 Point::new(gx / slope * reach_m, gy / slope * reach_m)
@@ -95,7 +95,7 @@ fn direction(d: &Derivatives, region: &Region, at: Point, on: Option<Outline>, r
 
 /// The same in one dimension: how far, and whether that is a whole Newton step.
 fn along(slope: f64, bend: f64, reach_m: f64) -> Option<(f64, bool)> {
-    if !(slope != 0.0) {
+    if slope.is_nan() || slope == 0.0 {
         return None;
     }
     if bend < 0.0 && (slope / bend).abs() <= reach_m {
