@@ -1,8 +1,10 @@
 //! Messages in the order of their log times, with only those chunks in memory whose times overlap.
 
+use std::borrow::BorrowMut;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::io::{Read, Seek};
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 use crate::chunk::Segment;
@@ -17,8 +19,11 @@ struct Loaded {
 }
 
 /// Iterator over a file's messages by log time, then file order. It ends after the first error.
-pub struct Messages<'a, R> {
-    reader: &'a mut BagReader<R>,
+///
+/// `B` is the reader itself or a borrow of it.
+pub struct Messages<B, R> {
+    reader: B,
+    input: PhantomData<R>,
     /// Segments still to be loaded, the earliest last.
     waiting: Vec<Segment>,
     /// Next message of every loaded segment: log time and offset of the segment, earliest on top.
@@ -29,12 +34,13 @@ pub struct Messages<'a, R> {
     done: bool,
 }
 
-impl<'a, R: Read + Seek> Messages<'a, R> {
-    pub(crate) fn new(reader: &'a mut BagReader<R>) -> Messages<'a, R> {
-        let mut waiting = reader.segments.clone();
+impl<B: BorrowMut<BagReader<R>>, R: Read + Seek> Messages<B, R> {
+    pub(crate) fn new(reader: B) -> Messages<B, R> {
+        let mut waiting = reader.borrow().segments.clone();
         waiting.sort_by_key(|segment| Reverse((segment.start, segment.span.offset)));
         Messages {
             reader,
+            input: PhantomData,
             waiting,
             heap: BinaryHeap::new(),
             loaded: BTreeMap::new(),
@@ -60,12 +66,13 @@ impl<'a, R: Read + Seek> Messages<'a, R> {
     fn load(&mut self, segment: Segment) -> Result<(), BagError> {
         let offset = segment.span.offset;
         let bytes = self.loaded_bytes.saturating_add(segment.uncompressed_size);
-        if bytes > self.reader.limits.loaded_bytes {
-            return Err(BagError::TooMuchOverlap { offset, bytes, limit: self.reader.limits.loaded_bytes });
+        let reader = self.reader.borrow_mut();
+        if bytes > reader.limits.loaded_bytes {
+            return Err(BagError::TooMuchOverlap { offset, bytes, limit: reader.limits.loaded_bytes });
         }
-        let records = segment.load(&mut self.reader.source, &self.reader.limits)?;
+        let records = segment.load(&mut reader.source, &reader.limits)?;
         let mut due = Vec::new();
-        segment.visit(&records, &mut self.reader.table, |table, at, message| {
+        segment.visit(&records, &mut reader.table, |table, at, message| {
             if table.topic(message.channel).is_none() {
                 return Err(BagError::UnknownChannel { offset, channel: message.channel });
             }
@@ -89,13 +96,13 @@ impl<'a, R: Read + Seek> Messages<'a, R> {
     fn advance(&mut self) -> Result<Option<Message>, BagError> {
         self.load_due()?;
         let Some(Reverse((_, offset))) = self.heap.pop() else {
-            let (got, expected) = (self.given, self.reader.contents().message_count);
+            let (got, expected) = (self.given, self.reader.borrow().contents().message_count);
             return if got == expected { Ok(None) } else { Err(BagError::CountMismatch { got, expected }) };
         };
         let (segment, loaded) = self.loaded.get_mut(&offset).expect("the heap only names loaded segments");
         let (_, at) = loaded.due[loaded.next];
         let record = segment.message_at(&loaded.records, at)?;
-        let topic = self.reader.table.topic(record.channel).expect("loading checked every channel");
+        let topic = self.reader.borrow().table.topic(record.channel).expect("loading checked every channel");
         let message = Message {
             topic: Arc::clone(topic),
             log_time: record.log_time,
@@ -116,7 +123,7 @@ impl<'a, R: Read + Seek> Messages<'a, R> {
     }
 }
 
-impl<R: Read + Seek> Iterator for Messages<'_, R> {
+impl<B: BorrowMut<BagReader<R>>, R: Read + Seek> Iterator for Messages<B, R> {
     type Item = Result<Message, BagError>;
 
     fn next(&mut self) -> Option<Self::Item> {

@@ -103,13 +103,23 @@ impl<R: Read + Seek> BagReader<R> {
         &self.damage
     }
 
+    /// What is wrong with the file, for keeping once the reader is gone.
+    pub fn into_damage(self) -> Vec<Damage> {
+        self.damage
+    }
+
     /// The file's metadata records, in file order.
     pub fn metadata(&self) -> &[MetadataRecord] {
         &self.metadata
     }
 
     /// Every message in the order of log times; those of equal time in file order.
-    pub fn messages(&mut self) -> Messages<'_, R> {
+    pub fn messages(&mut self) -> Messages<&mut BagReader<R>, R> {
+        Messages::new(self)
+    }
+
+    /// The same, keeping the reader within the iterator.
+    pub fn into_messages(self) -> Messages<BagReader<R>, R> {
         Messages::new(self)
     }
 
