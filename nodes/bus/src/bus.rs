@@ -18,6 +18,7 @@ use log::LevelFilter;
 use crate::{
     arguments::Arguments,
     clock::{self, Clock},
+    dds::{DdsTransport, Environment, Range},
     error::BusError,
     health::{Counters, Health, Level},
     housekeeping::Housekeeping,
@@ -25,13 +26,18 @@ use crate::{
     memory::MemoryGraph,
     names::NodeName,
     parameter::NodeSettings,
+    parameter_services,
     publisher::{Publisher, RawPublisher},
     qos::{Durability, Qos, QosProfile, Reliability},
     queue::{self, Overflow, Popped, Queue},
     settings::{BusParameters, settings_to_yaml},
+    signals,
     stop::Stopper,
     transport::{Guard, RawMessage, TopicInfo, Transport},
 };
+
+/// How long an ending node waits for its last messages to be acknowledged.
+const FLUSH_LIMIT: Duration = Duration::from_millis(500);
 
 /// Which graph a node joins. Clones are the same graph.
 #[derive(Debug, Clone)]
@@ -109,10 +115,19 @@ impl<E: Send + 'static> Bus<E> {
                 Overflow::Grow,
             ),
             Graph::Dds => {
-                return Err(BusError::Dds {
-                    what: "join the graph".to_owned(),
-                    reason: "later".to_owned(),
-                });
+                signals::stop_on_signals(&stopper)?;
+                let environment = Environment::read(&parameters.service_mapping)?;
+                for warning in &environment.warnings {
+                    log::warn!("{warning}");
+                }
+                if environment.range == Range::Off {
+                    log::warn!("ROS_AUTOMATIC_DISCOVERY_RANGE=OFF: this node neither hears nor is heard");
+                    let alone = MemoryGraph::new();
+                    (Arc::new(alone.join(&name, &stopper)), Some(alone), Overflow::Block)
+                } else {
+                    let transport = DdsTransport::join(&environment, &name, log.id())?;
+                    (Arc::new(transport), None, Overflow::Block)
+                }
             }
         };
         let mut bus = Bus {
@@ -136,6 +151,7 @@ impl<E: Send + 'static> Bus<E> {
         }
         bus.start_housekeeping(rosout, lines)?;
         bus.publish_settings(settings)?;
+        parameter_services::serve(&mut bus, settings, &parameters)?;
         for unused in &parameters.qos_overrides {
             log::warn!("the parameter `{unused}` is taken but has no effect: this node's QoS is fixed");
         }
@@ -490,7 +506,9 @@ impl<E> Drop for Bus<E> {
         if let Some(thread) = self.housekeeper.take() {
             let _ = thread.join();
         }
+        self.transport.flush(FLUSH_LIMIT);
         self.guards.clear();
+        signals::forget(&self.stopper);
         if let Some(memory) = &self.memory {
             memory.leave(&self.stopper);
         }

@@ -53,6 +53,14 @@ pub enum BusError {
         /// How many bytes.
         got: usize,
     },
+    /// An encoding that RustDDS cannot write.
+    #[error("cannot publish on {topic}: the message is encoded as {got}; only little-endian CDR (0x00 0x01) can be sent")]
+    Encoding {
+        /// The topic.
+        topic: String,
+        /// The first two bytes of the header.
+        got: String,
+    },
     /// A thread or a signal handler cannot be had.
     #[error("cannot start {what}: {source}")]
     System {

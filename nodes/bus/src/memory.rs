@@ -3,6 +3,7 @@
 use std::{
     collections::{BTreeMap, VecDeque},
     sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
+    time::Duration,
 };
 
 use apprentice_msgs::{Service, from_cdr, to_cdr};
@@ -373,5 +374,9 @@ impl Transport for MemoryTransport {
             }
         }
         topics
+    }
+
+    fn flush(&self, _limit: Duration) {
+        // Messages have arrived when `publish` returns.
     }
 }

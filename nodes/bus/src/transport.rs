@@ -1,6 +1,6 @@
 //! What a graph does for a node: bytes in, bytes out. Implemented over DDS and in memory.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use apprentice_msgs::builtin_interfaces::Time;
 
@@ -59,6 +59,9 @@ pub(crate) trait Transport: Send + Sync {
 
     /// What is known of the graph.
     fn topics(&self) -> Vec<TopicInfo>;
+
+    /// Waits until what was published has arrived, at most `limit`.
+    fn flush(&self, limit: Duration);
 }
 
 /// One topic on the graph, with one type (a topic with two types is listed twice).
