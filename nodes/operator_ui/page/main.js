@@ -37,6 +37,8 @@ const reveal = () => (showsQuestion() || own.correcting ? own.revealed : ["taugh
 
 function sections(changed) {
   Object.assign(state, changed);
+  const sent = state.answers.find((answer) => answer.id === own.sent);
+  if (sent?.state === "refused" && own.sentFor !== null) Object.assign(own, { sentFor: null, problem: `Refused: ${sent.reason}` });
   const key = state.question?.open ? state.question.id : null;
   if (key !== null && own.question !== key) {
     Object.assign(own, { question: key, at: null, revealed: false, sentFor: null, correcting: false, problem: "" });
@@ -94,8 +96,10 @@ function submit() {
   send({ type: "place", id: newId(), query_id: query, x_m: own.at.x, y_m: own.at.y, confidence }, query);
 }
 
+/** Skipping answers the open question; stopping works whatever is asked. */
 function respond(kind, reason = "") {
-  if (isAsking()) send({ type: "respond", id: newId(), query_id: state.question.id, kind, reason }, state.question.id);
+  const query = isAsking() ? state.question.id : "";
+  if (query || kind === "stop") send({ type: "respond", id: newId(), query_id: query, kind, reason }, query || undefined);
 }
 
 function send(command, query) {
@@ -231,7 +235,8 @@ function renderAnswer() {
     : teaching && !own.at ? `Drag the ${name} onto the table, or use the arrow keys.`
     : submittable ? "Fine-tune with the arrow keys: 5 mm, with Shift 2 cm." : "");
   $("hint").dataset.tone = own.problem || blocked ? "bad" : far ? "warn" : "";
-  for (const id of ["skip", "cant-tell", "stop"]) $(id).disabled = !asking;
+  for (const id of ["skip", "cant-tell"]) $(id).disabled = !asking;
+  $("stop").disabled = lessonState() === "waiting" || lessonState() === "stopped";
   document.querySelector(".confidence").disabled = !teaching;
   const undoable = lastActive(), redoable = lastUndone();
   $("undo").disabled = !undoable;
@@ -289,7 +294,7 @@ function renderConnection() {
     item.dataset.node = n.name;
     item.dataset.value = n.state;
     name.textContent = n.name;
-    word.textContent = n.state;
+    word.textContent = n.restarts ? `${n.state}, restarted ${n.restarts}×` : n.state;
     item.append(document.createElement("i"), name, word);
     return item;
   }));

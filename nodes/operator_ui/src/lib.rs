@@ -1,1 +1,27 @@
-//! TEMPORARY skeleton of operator_ui.
+//! The operator's page: the question on the table, the person's answer, and how sure the robot is.
+//!
+//! [`OperatorUi`] is a pure state machine between the topics and the pages; [`run`] wires it to the bus and to a small
+//! web server that is bound to the loopback interface and guarded by a token. What travels between server and page is
+//! [`protocol`].
+
+mod access;
+mod answers;
+mod assets;
+mod hub;
+mod markers;
+mod node;
+mod presence;
+pub mod protocol;
+mod question;
+mod run;
+mod server;
+mod settings;
+mod socket;
+mod view;
+
+pub use access::{Access, AccessError};
+pub use hub::{Hub, PageId};
+pub use node::{Event, OperatorUi, Output, Told};
+pub use run::run;
+pub use server::{Limits, Server};
+pub use settings::Settings;

@@ -1,0 +1,344 @@
+//! The node as a state machine between the topics and the pages.
+
+use crate::answers::{Answers, Evidence};
+use crate::hub::PageId;
+use crate::markers::markers;
+use crate::presence::Presence;
+use crate::protocol::{
+    BoundsView, FromPage, LessonView, NodeView, PROTOCOL, PlanView, PosteriorView, SceneView, Sections, ToPage, TrendPoint,
+};
+use crate::question::{Context, id_of};
+use crate::settings::Settings;
+use crate::view::{bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point};
+use apprentice_msgs::msg::{
+    EvidenceLog, EvidenceReceipt, Heartbeat, LessonStatus, PerformanceBounds, PlacementDemonstration, PlacementPlan,
+    PlacementQuery, Posterior, QueryResponse, Retraction, TableScene,
+};
+use apprentice_msgs::visualization_msgs::MarkerArray;
+use bus::Time;
+
+/// Points of the bound's history kept.
+const MAX_TREND: usize = 2000;
+/// A page is told that the node is alive this often, nanoseconds.
+const TICK_NS: i128 = 2_000_000_000;
+
+/// What happens to the node.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Event {
+    /// The table as it is.
+    Scene(Box<TableScene>),
+    /// The open question.
+    Query(Box<PlacementQuery>),
+    /// Where the lesson stands.
+    Lesson(Box<LessonStatus>),
+    /// A bound.
+    Bounds(Box<PerformanceBounds>),
+    /// A posterior.
+    Posterior(Box<Posterior>),
+    /// The robot's placement in the question's scene.
+    Guess(Box<PlacementPlan>),
+    /// The robot's placement on the table as it is.
+    Plan(Box<PlacementPlan>),
+    /// What became of some evidence.
+    Receipt(Box<EvidenceReceipt>),
+    /// Everything accepted so far.
+    Evidence(Box<EvidenceLog>),
+    /// A node is alive.
+    Heartbeat(Box<Heartbeat>),
+    /// A page has connected.
+    Joined(PageId),
+    /// A page has sent a text.
+    Said(PageId, String),
+    /// Half a second has passed.
+    Tick,
+}
+
+/// A text for pages.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Told {
+    /// For this page; `None`: for all.
+    pub to: Option<PageId>,
+    /// JSON of a [`ToPage`].
+    pub text: String,
+}
+
+/// What the node wants done.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Output {
+    /// Publish, now and again until there is a receipt.
+    Demonstration(Box<PlacementDemonstration>),
+    /// Publish, now and again until there is a receipt.
+    Retraction(Box<Retraction>),
+    /// Publish, now and again until there is a receipt.
+    Response(Box<QueryResponse>),
+    /// Publish for RViz.
+    Markers(Box<MarkerArray>),
+    /// Send to pages.
+    Told(Told),
+    /// Log.
+    Warn(String),
+}
+
+/// Which sections have changed.
+#[derive(Debug, Clone, Copy, Default)]
+struct Changed {
+    scene: bool,
+    question: bool,
+    guess: bool,
+    plan: bool,
+    lesson: bool,
+    bounds: bool,
+    posterior: bool,
+    answers: bool,
+    nodes: bool,
+}
+
+impl Changed {
+    const ALL: Self = Self {
+        scene: true,
+        question: true,
+        guess: true,
+        plan: true,
+        lesson: true,
+        bounds: true,
+        posterior: true,
+        answers: true,
+        nodes: true,
+    };
+}
+
+/// See the module.
+#[derive(Debug)]
+pub struct OperatorUi {
+    settings: Settings,
+    scene: Option<(TableScene, SceneView)>,
+    query: Option<(PlacementQuery, SceneView)>,
+    lesson: Option<LessonStatus>,
+    guess: Option<PlanView>,
+    plan: Option<PlanView>,
+    bounds: Option<BoundsView>,
+    posterior: Option<PosteriorView>,
+    trend: Vec<TrendPoint>,
+    answers: Answers,
+    presence: Presence,
+    nodes: Vec<NodeView>,
+    ticked: Option<Time>,
+    last_warning: String,
+}
+
+impl OperatorUi {
+    /// A node that has heard of nothing yet.
+    pub fn new(settings: Settings) -> Self {
+        Self {
+            settings,
+            scene: None,
+            query: None,
+            lesson: None,
+            guess: None,
+            plan: None,
+            bounds: None,
+            posterior: None,
+            trend: Vec::new(),
+            answers: Answers::default(),
+            presence: Presence::default(),
+            nodes: Vec::new(),
+            ticked: None,
+            last_warning: String::new(),
+        }
+    }
+
+    /// Takes one event.
+    pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
+        let mut out = Vec::new();
+        let mut changed = Changed::default();
+        let was_open = self.context().is_open();
+        match event {
+            Event::Scene(message) => changed.scene = self.take_scene(*message, &mut out),
+            Event::Query(message) => changed.question = self.take_query(*message, &mut out),
+            Event::Lesson(message) => {
+                changed.lesson = self.lesson.as_ref().map(lesson_view) != Some(lesson_view(&message));
+                self.lesson = Some(*message);
+            }
+            Event::Bounds(message) => changed.bounds = self.take_bounds(&message),
+            Event::Posterior(message) => changed.posterior = replace(&mut self.posterior, posterior_view(&message)),
+            Event::Guess(message) => {
+                let view = self.checked_plan(&message, &mut out);
+                changed.guess = replace(&mut self.guess, view);
+            }
+            Event::Plan(message) => {
+                let view = self.checked_plan(&message, &mut out);
+                changed.plan = replace(&mut self.plan, view);
+            }
+            Event::Receipt(message) => {
+                let (meant, orphan) = self.answers.receipt(&message);
+                changed.answers = meant;
+                out.extend(orphan.map(|reason| tell(None, &ToPage::Refused { id: Some(message.id), reason })));
+            }
+            Event::Evidence(message) => changed.answers = self.answers.log(&message),
+            Event::Heartbeat(message) => self.presence.hear(&now, *message),
+            Event::Joined(page) => {
+                let sections = self.sections(Changed::ALL);
+                out.push(tell(Some(page), &ToPage::State { protocol: PROTOCOL, sections }));
+            }
+            Event::Said(page, text) => match self.take_command(&now, &text) {
+                Ok(()) => changed.answers = true,
+                Err((id, reason)) => out.push(tell(Some(page), &ToPage::Refused { id, reason })),
+            },
+            Event::Tick => out.extend(self.tick(&now)),
+        }
+        let nodes = self.presence.view(&now);
+        changed.nodes = nodes != self.nodes;
+        self.nodes = nodes;
+        changed.question |= was_open != self.context().is_open();
+        out.extend(self.answers.due(&now).into_iter().map(|evidence| match evidence {
+            Evidence::Demonstration(message) => Output::Demonstration(message),
+            Evidence::Retraction(message) => Output::Retraction(message),
+            Evidence::Response(message) => Output::Response(message),
+        }));
+        let sections = self.sections(changed);
+        if *sections != Sections::default() {
+            out.push(tell(None, &ToPage::State { protocol: PROTOCOL, sections }));
+        }
+        if changed.scene || changed.question || changed.guess || changed.plan || changed.bounds {
+            out.extend(self.markers().map(|message| Output::Markers(Box::new(message))));
+        }
+        out
+    }
+
+    fn context(&self) -> Context<'_> {
+        Context {
+            source: &self.settings.source,
+            scene: self.scene.as_ref().map(|(message, _)| message),
+            query: self.query.as_ref().map(|(message, _)| message),
+            lesson: self.lesson.as_ref(),
+            answers: &self.answers,
+        }
+    }
+
+    fn take_scene(&mut self, message: TableScene, out: &mut Vec<Output>) -> bool {
+        match scene_view(&message) {
+            Ok(view) => {
+                let changed = self.scene.as_ref().map(|(_, before)| before) != Some(&view);
+                self.scene = Some((message, view));
+                changed
+            }
+            Err(error) => {
+                self.warn(format!("the table cannot be shown: {error}"), out);
+                false
+            }
+        }
+    }
+
+    fn take_query(&mut self, message: PlacementQuery, out: &mut Vec<Output>) -> bool {
+        match scene_view(&message.scene) {
+            // The copies that are sent again may differ in their stamps only; NaN differs even from itself.
+            Ok(view) => {
+                let before = self.query.as_ref().map(|(m, v)| question_view(m, v.clone(), true));
+                let changed = before != Some(question_view(&message, view.clone(), true));
+                self.query = Some((message, view));
+                changed
+            }
+            Err(error) => {
+                self.warn(format!("question '{}' cannot be shown: {error}", message.id), out);
+                false
+            }
+        }
+    }
+
+    fn take_bounds(&mut self, message: &PerformanceBounds) -> bool {
+        // An earlier revision than the last one begins a new session; the same one replaces its point.
+        self.trend.retain(|point| point.revision < message.revision);
+        self.trend.push(trend_point(message));
+        if self.trend.len() > MAX_TREND {
+            self.trend.remove(0);
+        }
+        replace(&mut self.bounds, bounds_view(message))
+    }
+
+    fn checked_plan(&mut self, message: &PlacementPlan, out: &mut Vec<Output>) -> PlanView {
+        let (view, complaint) = plan_view(message);
+        if let Some(complaint) = complaint {
+            self.warn(complaint, out);
+        }
+        view
+    }
+
+    /// Carries out a page's command, or says why not.
+    fn take_command(&mut self, now: &Time, text: &str) -> Result<(), (Option<String>, String)> {
+        let command: FromPage =
+            serde_json::from_str(text).map_err(|error| (None, format!("the page sent no command: {error}")))?;
+        let id = Some(id_of(&command).chars().take(128).collect());
+        match self.context().evidence(now, command) {
+            Ok(None) => Ok(()),
+            Ok(Some(evidence)) => self.answers.add(evidence).map_err(|reason| (id, reason)),
+            Err(reason) => Err((id, reason)),
+        }
+    }
+
+    fn tick(&mut self, now: &Time) -> Option<Output> {
+        let due = self.ticked.as_ref().is_none_or(|ticked| now.nanoseconds_since(ticked) >= TICK_NS);
+        due.then(|| {
+            self.ticked = Some(now.clone());
+            tell(None, &ToPage::Tick)
+        })
+    }
+
+    /// Logs a complaint and shows it, unless it is the same as the last.
+    fn warn(&mut self, text: String, out: &mut Vec<Output>) {
+        if text != self.last_warning {
+            self.last_warning.clone_from(&text);
+            out.push(tell(None, &ToPage::Notice { text: text.clone() }));
+            out.push(Output::Warn(text));
+        }
+    }
+
+    fn sections(&self, changed: Changed) -> Box<Sections> {
+        let question = || {
+            let (message, scene) = self.query.as_ref()?;
+            Some(question_view(message, scene.clone(), self.context().is_open()))
+        };
+        let lesson = || -> Option<LessonView> { self.lesson.as_ref().map(lesson_view) };
+        let epsilon_m = || {
+            let lesson = self.lesson.as_ref().and_then(|lesson| finite(lesson.epsilon_m));
+            lesson.or(self.query.as_ref().and_then(|(query, _)| finite(query.epsilon_m)))
+        };
+        let trend = || {
+            let epsilon_m = epsilon_m();
+            self.trend.iter().map(|point| TrendPoint { epsilon_m, ..point.clone() }).collect()
+        };
+        Box::new(Sections {
+            scene: changed.scene.then(|| self.scene.as_ref().map(|(_, view)| view.clone())),
+            question: changed.question.then(question),
+            guess: changed.guess.then(|| self.guess.clone()),
+            plan: changed.plan.then(|| self.plan.clone()),
+            lesson: changed.lesson.then(lesson),
+            bounds: changed.bounds.then(|| self.bounds.clone()),
+            posterior: changed.posterior.then(|| self.posterior.clone()),
+            trend: (changed.bounds || changed.lesson).then(trend),
+            answers: changed.answers.then(|| self.answers.views()),
+            nodes: changed.nodes.then(|| self.nodes.clone()),
+        })
+    }
+
+    /// The table in front of the robot for RViz: the question's while one is open, else the task's.
+    fn markers(&self) -> Option<MarkerArray> {
+        let open = self.query.as_ref().filter(|_| self.context().is_open());
+        let (view, plan) = match open {
+            Some((query, view)) => (view, self.guess.as_ref().filter(|guess| guess.query_id == query.id)),
+            None => (&self.scene.as_ref()?.1, self.plan.as_ref()),
+        };
+        Some(markers(view, plan, self.bounds.as_ref()))
+    }
+}
+
+/// Stores a value and says whether it is new.
+fn replace<T: PartialEq>(place: &mut Option<T>, value: T) -> bool {
+    let changed = place.as_ref() != Some(&value);
+    *place = Some(value);
+    changed
+}
+
+fn tell(to: Option<PageId>, message: &ToPage) -> Output {
+    let text = serde_json::to_string(message).expect("the protocol's types have string keys only");
+    Output::Told(Told { to, text })
+}

@@ -1,0 +1,171 @@
+//! From a page's command to evidence: what may be answered, and the sentence a person reads when it may not.
+
+use crate::answers::{Answers, Evidence};
+use crate::protocol::{Confidence, FromPage, Kind};
+use apprentice_msgs::geometry_msgs::Point;
+use apprentice_msgs::msg::{LessonStatus, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction, TableScene};
+use apprentice_msgs::std_msgs::Header;
+use bus::Time;
+
+/// Longer reasons are refused, bytes.
+const MAX_REASON: usize = 1000;
+
+/// What a command is judged by.
+pub(crate) struct Context<'a> {
+    pub source: &'a str,
+    pub scene: Option<&'a TableScene>,
+    pub query: Option<&'a PlacementQuery>,
+    pub lesson: Option<&'a LessonStatus>,
+    pub answers: &'a Answers,
+}
+
+impl Context<'_> {
+    /// Whether the newest question waits for an answer: nobody has answered it, and the lesson has not moved on.
+    pub fn is_open(&self) -> bool {
+        let Some(query) = self.query else { return false };
+        let moved_on =
+            self.lesson.is_some_and(|lesson| lesson.revision >= query.revision && lesson.query_id != query.id);
+        !moved_on && !self.answers.has_answered(&query.id)
+    }
+
+    /// The open question, when it has this id.
+    fn open(&self, id: &str) -> Result<&PlacementQuery, String> {
+        match self.query.filter(|_| self.is_open()) {
+            Some(query) if query.id == id => Ok(query),
+            Some(query) => Err(format!(
+                "question '{}' is no longer open, so the answer was not sent; the open question is '{}'",
+                shown(id),
+                query.id
+            )),
+            None => Err(format!(
+                "question '{}' is no longer open, so the answer was not sent; no question is open now",
+                shown(id)
+            )),
+        }
+    }
+
+    /// The evidence a command stands for; `None` when its id is known already.
+    pub fn evidence(&self, now: &Time, command: FromPage) -> Result<Option<Evidence>, String> {
+        let id = id_of(&command);
+        if !is_uuid(id) {
+            return Err("the id of a command must be a version 4 UUID".into());
+        }
+        if self.answers.knows(id) {
+            return Ok(None);
+        }
+        let source = self.source.to_owned();
+        Ok(Some(match command {
+            FromPage::Place { id, query_id, x_m, y_m, confidence } => {
+                let scene = if query_id.is_empty() {
+                    self.scene.ok_or("there is no table yet to place anything on")?.clone()
+                } else {
+                    self.open(&query_id)?.scene.clone()
+                };
+                let on = |v: f64, extent_m: f64| (0.0..=extent_m).contains(&v);
+                if !on(x_m, scene.width_m) || !on(y_m, scene.depth_m) {
+                    return Err(format!(
+                        "({x_m}, {y_m}) m is off the table of {} m x {} m",
+                        scene.width_m, scene.depth_m
+                    ));
+                }
+                Evidence::Demonstration(Box::new(PlacementDemonstration {
+                    header: Header { stamp: now.clone(), frame_id: scene.header.frame_id.clone() },
+                    id,
+                    query_id,
+                    source,
+                    scene,
+                    placement: Point { x: x_m, y: y_m, z: 0.0 },
+                    confidence: number(confidence),
+                }))
+            }
+            FromPage::Respond { id, query_id, kind, reason } => {
+                let kind = match kind {
+                    Kind::Placement => return Err("a placement is sent with 'place', not with 'respond'".into()),
+                    Kind::Skip => QueryResponse::SKIP,
+                    Kind::CantTell => QueryResponse::CANT_TELL,
+                    Kind::Stop => QueryResponse::STOP,
+                };
+                if reason.len() > MAX_REASON {
+                    return Err(format!("the reason has {} bytes; at most {MAX_REASON} are taken", reason.len()));
+                }
+                // Stopping must work whatever is being asked.
+                if kind != QueryResponse::STOP {
+                    self.open(&query_id)?;
+                }
+                let header = Header { stamp: now.clone(), frame_id: String::new() };
+                let query_id = shown(&query_id);
+                Evidence::Response(Box::new(QueryResponse { header, id, query_id, source, kind, reason }))
+            }
+            FromPage::Retract { id, evidence_id } => Evidence::Retraction(Box::new(Retraction {
+                header: Header { stamp: now.clone(), frame_id: String::new() },
+                id,
+                evidence_id,
+                source,
+                reason: "taken back on the operator page".into(),
+            })),
+            FromPage::Again { id, evidence_id } => {
+                let (before, scene) = self.answers.undone_placement(&evidence_id)?;
+                let (Some(x), Some(y), Some(confidence)) = (before.x_m, before.y_m, before.confidence) else {
+                    return Err("the placement that is to be given again has no place".into());
+                };
+                Evidence::Demonstration(Box::new(PlacementDemonstration {
+                    header: Header { stamp: now.clone(), frame_id: scene.header.frame_id.clone() },
+                    id,
+                    query_id: String::new(),
+                    source,
+                    scene,
+                    placement: Point { x, y, z: 0.0 },
+                    confidence: number(confidence),
+                }))
+            }
+        }))
+    }
+}
+
+/// The id of a command.
+pub(crate) fn id_of(command: &FromPage) -> &str {
+    match command {
+        FromPage::Place { id, .. }
+        | FromPage::Respond { id, .. }
+        | FromPage::Retract { id, .. }
+        | FromPage::Again { id, .. } => id,
+    }
+}
+
+fn number(confidence: Confidence) -> u8 {
+    match confidence {
+        Confidence::Sure => PlacementDemonstration::CONFIDENCE_SURE,
+        Confidence::Fairly => PlacementDemonstration::CONFIDENCE_FAIRLY,
+        Confidence::Guess => PlacementDemonstration::CONFIDENCE_GUESS,
+    }
+}
+
+/// An id cut to what fits a message to a person.
+fn shown(id: &str) -> String {
+    id.chars().take(128).collect()
+}
+
+/// Whether a text is a version 4 UUID in lower case.
+fn is_uuid(text: &str) -> bool {
+    text.len() == 36
+        && text.bytes().enumerate().all(|(i, byte)| match i {
+            8 | 13 | 18 | 23 => byte == b'-',
+            14 => byte == b'4',
+            19 => matches!(byte, b'8' | b'9' | b'a' | b'b'),
+            _ => matches!(byte, b'0'..=b'9' | b'a'..=b'f'),
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_uuid;
+
+    #[test]
+    fn only_version_4_uuids_are_ids() {
+        assert!(is_uuid("0f8fad5b-d9cb-469f-a165-70867728950e"));
+        for bad in ["", "0f8fad5b-d9cb-169f-a165-70867728950e", "0F8FAD5B-d9cb-469f-a165-70867728950e", "é".repeat(18).as_str()]
+        {
+            assert!(!is_uuid(bad), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! The node on the graph and on the web.
+
+use crate::access::Access;
+use crate::hub::Hub;
+use crate::server::{Limits, Server};
+use crate::{Event, OperatorUi, Output, Settings};
+use apprentice_msgs::msg::{PlacementDemonstration, QueryResponse, Retraction};
+use apprentice_msgs::visualization_msgs::MarkerArray;
+use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
+use std::fs::File;
+use std::io::{Read, Write};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener};
+use std::path::Path;
+use std::time::Duration;
+
+/// A longer token file is refused, bytes.
+const MAX_TOKEN_FILE: u64 = 1024;
+
+/// Runs the node until it is asked to stop.
+pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
+    let settings: Settings = arguments.settings()?;
+    let listener = listen(&settings)?;
+    let address = listener.local_addr().map_err(|error| start(&error))?;
+    let token = read_token(&settings.token_file)?;
+    let access = Access::new(token.as_deref(), address.ip(), address.port(), &settings.allowed_hosts)
+        .map_err(|error| start(&error))?;
+    let url = format!("http://{}/?{}", shown(address), access.query());
+
+    let mut bus = Bus::open(graph, arguments, &settings)?;
+    let demonstration = bus.publisher::<PlacementDemonstration>("demonstration", Qos::Event)?;
+    let retraction = bus.publisher::<Retraction>("retraction", Qos::Event)?;
+    let response = bus.publisher::<QueryResponse>("response", Qos::Event)?;
+    let markers = bus.publisher::<MarkerArray>("markers", Qos::State)?;
+    bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
+    bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
+    bus.subscribe("lesson", Qos::State, |message| Event::Lesson(Box::new(message)))?;
+    bus.subscribe("bounds", Qos::State, |message| Event::Bounds(Box::new(message)))?;
+    bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
+    bus.subscribe("guess", Qos::State, |message| Event::Guess(Box::new(message)))?;
+    bus.subscribe("plan", Qos::State, |message| Event::Plan(Box::new(message)))?;
+    bus.subscribe("receipt", Qos::Event, |message| Event::Receipt(Box::new(message)))?;
+    bus.subscribe("evidence", Qos::State, |message| Event::Evidence(Box::new(message)))?;
+    bus.subscribe("heartbeat", Qos::Event, |message| Event::Heartbeat(Box::new(message)))?;
+    bus.every(Duration::from_millis(500), || Event::Tick);
+
+    let hub = Hub::new(usize::try_from(settings.max_pages).unwrap_or(1));
+    let events = bus.sender();
+    let server = Server::start(listener, access, hub.clone(), Limits::default(), move |event| events.send(event))
+        .map_err(|error| start(&error))?;
+    announce(&settings, &url)?;
+    if !address.ip().is_loopback() {
+        log::warn!("the page can be reached from the network, unencrypted: whoever listens in can read the token");
+    }
+
+    let mut node = OperatorUi::new(settings);
+    let mut pages = usize::MAX;
+    while let Some((now, event)) = bus.next() {
+        for output in node.step(now, event) {
+            match output {
+                Output::Demonstration(message) => demonstration.publish(&message)?,
+                Output::Retraction(message) => retraction.publish(&message)?,
+                Output::Response(message) => response.publish(&message)?,
+                Output::Markers(message) => markers.publish(&message)?,
+                Output::Told(told) => hub.tell(told),
+                Output::Warn(text) => log::warn!("{text}"),
+            }
+        }
+        if hub.len() != pages {
+            pages = hub.len();
+            let facts = [("pages", pages.to_string()), ("address", server.address().to_string())];
+            bus.status(Level::Ok, format!("{pages} pages are open"), &facts);
+        }
+    }
+    Ok(())
+}
+
+fn start(error: &dyn std::fmt::Display) -> NodeError {
+    NodeError::Start(format!("the operator page cannot be served: {error}"))
+}
+
+fn listen(settings: &Settings) -> Result<TcpListener, NodeError> {
+    let address = settings.address().unwrap_or(IpAddr::V4(Ipv4Addr::LOCALHOST));
+    let port = u16::try_from(settings.port).map_err(|error| start(&error))?;
+    TcpListener::bind((address, port)).map_err(|error| {
+        let what = match error.kind() {
+            std::io::ErrorKind::AddrInUse => format!("port {port} on {address} is in use"),
+            std::io::ErrorKind::PermissionDenied => format!("port {port} on {address} is not permitted"),
+            _ => format!("port {port} on {address} cannot be had ({error})"),
+        };
+        let advice = "choose another with -p port:=N, or any free one with -p port:=0";
+        NodeError::Start(format!("the operator page cannot be served: {what}; {advice}"))
+    })
+}
+
+/// The address as a browser on this machine reaches it.
+fn shown(address: SocketAddr) -> SocketAddr {
+    let ip = match address.ip() {
+        IpAddr::V4(Ipv4Addr::UNSPECIFIED) => IpAddr::V4(Ipv4Addr::LOCALHOST),
+        IpAddr::V6(Ipv6Addr::UNSPECIFIED) => IpAddr::V6(Ipv6Addr::LOCALHOST),
+        other => other,
+    };
+    SocketAddr::new(ip, address.port())
+}
+
+fn read_token(path: &str) -> Result<Option<String>, NodeError> {
+    if path.is_empty() {
+        return Ok(None);
+    }
+    let mut text = String::new();
+    File::open(path)
+        .and_then(|file| file.take(MAX_TOKEN_FILE).read_to_string(&mut text))
+        .map_err(|error| NodeError::Start(format!("token_file '{path}' cannot be read: {error}")))?;
+    Ok(Some(text.trim().to_owned()))
+}
+
+/// Says where the page is. Not through the log: that goes onto the graph and into bags, and the address is a secret.
+fn announce(settings: &Settings, url: &str) -> Result<(), NodeError> {
+    eprintln!("operator page: {url}");
+    if settings.url_file.is_empty() {
+        return Ok(());
+    }
+    write_privately(Path::new(&settings.url_file), url)
+        .map_err(|error| NodeError::Start(format!("url_file '{}' cannot be written: {error}", settings.url_file)))
+}
+
+/// Writes a file that only its owner can read, at once and whole.
+fn write_privately(path: &Path, text: &str) -> std::io::Result<()> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    let part = path.with_file_name(name);
+    let mut options = File::options();
+    options.write(true).create(true).truncate(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    let mut file = options.open(&part)?;
+    writeln!(file, "{text}")?;
+    file.sync_all()?;
+    std::fs::rename(&part, path)
+}
