@@ -1,1 +1,41 @@
-//! TEMPORARY skeleton of bringup.
+//! Starts, watches, restarts and stops the nodes of a lesson, each a process of its own, and tells the lesson's story.
+
+mod backoff;
+mod child;
+mod console;
+mod environment;
+mod error;
+mod flags;
+mod launch;
+mod ledger;
+mod log_line;
+mod nodes;
+mod scenario;
+mod session;
+mod settings;
+mod start;
+mod story;
+mod suite;
+mod summary;
+mod supervisor;
+mod watch;
+
+pub use backoff::{Backoff, HEALTHY_AFTER, LONGEST, SHORTEST};
+pub use child::{Child, NodeLog};
+pub use console::{Console, Kind};
+pub use environment::{take_on, wanted};
+pub use error::BringupError;
+pub use flags::{CommandLine, CommandLineError, Flags, Who};
+pub use launch::{Common, LaunchNode, launch};
+pub use ledger::Ledger;
+pub use log_line::Level;
+pub use nodes::{NodeInfo, stop_stage};
+pub use scenario::{BUILT_IN, Scenario, read_parameters};
+pub use session::{Session, SessionRecord};
+pub use settings::{Demonstrator, Settings};
+pub use start::main;
+pub use story::Story;
+pub use suite::{Outcome, Plan, run};
+pub use summary::{Circumstances, NodeCount, Percentiles, Summary};
+pub use supervisor::{Action, Exit, GRACE, Supervisor};
+pub use watch::{Topic, Watch};

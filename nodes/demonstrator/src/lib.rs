@@ -1,1 +1,18 @@
-//! TEMPORARY skeleton of demonstrator.
+//! A simulated person with a hidden reward, who answers every question about where the target belongs.
+//!
+//! An answer is a function of the seed and the question's id alone, so a person who is killed and comes back says the
+//! same again under the same id, and counting once is the receiver's easy job.
+
+mod identity;
+mod node;
+mod person;
+mod run;
+mod settings;
+mod true_error;
+
+pub use identity::answer_id;
+pub use node::{DemonstratorNode, Event, MAX_PENDING, Output};
+pub use person::{Answer, GRID_SIDE, Person, PersonError};
+pub use run::run;
+pub use settings::{Noise, Settings};
+pub use true_error::true_error_m;

@@ -1,0 +1,97 @@
+//! The numbers of a lesson.
+
+use crate::Topic;
+use apprentice_msgs::msg::{EvidenceReceipt, EvidenceRecord, LessonStatus, PlacementPlan};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// Latencies kept for the percentiles.
+const MAX_LATENCIES: usize = 100_000;
+
+/// Counts what happens in a lesson; time is an argument.
+#[derive(Debug, Default)]
+pub struct Ledger {
+    /// Arrival of the first question.
+    pub first_question: Option<Duration>,
+    /// The newest state of the lesson.
+    pub lesson: Option<LessonStatus>,
+    /// Answers that are evidence now: placements and other responses.
+    pub answers: u64,
+    /// The newest plan for the table as it is.
+    pub plan: Option<PlacementPlan>,
+    /// From "accepted" to the next question or the lesson's end, milliseconds.
+    latencies_ms: Vec<f64>,
+    /// When each answer was accepted that has no next question yet, by revision.
+    waiting: BTreeMap<u64, Duration>,
+    /// The newest revision that was followed by a question or the end.
+    followed: Option<u64>,
+}
+
+impl Ledger {
+    /// Takes note of something said at a time since the start.
+    pub fn note(&mut self, now: Duration, topic: &Topic) {
+        match topic {
+            Topic::Query(query) => {
+                self.first_question.get_or_insert(now);
+                self.follow(now, query.revision);
+            }
+            Topic::Lesson(lesson) => {
+                if lesson.state != LessonStatus::ASKING {
+                    self.follow(now, lesson.revision);
+                }
+                self.lesson = Some(lesson.clone());
+            }
+            Topic::Receipt(receipt) if receipt.outcome == EvidenceReceipt::ACCEPTED => {
+                if self.followed.is_none_or(|followed| receipt.revision > followed)
+                    && self.waiting.len() < MAX_LATENCIES
+                {
+                    self.waiting.entry(receipt.revision).or_insert(now);
+                }
+            }
+            Topic::Evidence(log) => {
+                let answers = log.records.iter().filter(|record| record.kind != EvidenceRecord::RETRACTION);
+                self.answers = answers.count() as u64;
+            }
+            Topic::Plan(plan) if plan.query_id.is_empty() => self.plan = Some(plan.clone()),
+            _ => {}
+        }
+    }
+
+    /// Whether the lesson has ended, in whatever way.
+    pub fn is_over(&self) -> bool {
+        self.lesson.as_ref().is_some_and(|lesson| lesson.state != LessonStatus::ASKING)
+    }
+
+    /// Whether the robot has planned with all that the lesson's end knows.
+    pub fn has_final_plan(&self) -> bool {
+        match (&self.plan, &self.lesson) {
+            (Some(plan), Some(lesson)) => {
+                let taught = lesson.state == LessonStatus::TAUGHT;
+                plan.revision >= lesson.revision && (plan.inside_bound || !taught)
+            }
+            _ => false,
+        }
+    }
+
+    /// From "accepted" to the next question, milliseconds; sorted.
+    pub fn latencies_ms(&self) -> Vec<f64> {
+        let mut sorted = self.latencies_ms.clone();
+        sorted.sort_by(f64::total_cmp);
+        sorted
+    }
+
+    /// A question or the end with this revision has come.
+    fn follow(&mut self, now: Duration, revision: u64) {
+        if self.followed.is_some_and(|followed| revision <= followed) {
+            return;
+        }
+        self.followed = Some(revision);
+        let later = self.waiting.split_off(&(revision + 1));
+        // Of answers that were overtaken by a newer one only the newest was waited for.
+        if let Some((_, accepted)) = std::mem::replace(&mut self.waiting, later).last_key_value()
+            && self.latencies_ms.len() < MAX_LATENCIES
+        {
+            self.latencies_ms.push(now.saturating_sub(*accepted).as_secs_f64() * 1e3);
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! What happens in a lesson, one plain sentence each.
+
+use crate::{Kind, Topic};
+use apprentice_msgs::msg::{
+    EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementPlan, PlacementQuery,
+    QueryResponse, TableScene,
+};
+
+/// Cells of the bar that shows a bound.
+const BAR: usize = 24;
+/// Longest text of others that goes into a sentence, characters.
+const MAX_TEXT: usize = 160;
+
+/// Follows a lesson; the same thing said twice is told once.
+#[derive(Debug, Default)]
+pub struct Story {
+    table: Option<TableScene>,
+    questions: Vec<String>,
+    told_evidence: Option<u64>,
+    bounds: Option<PerformanceBounds>,
+    lesson: Option<LessonStatus>,
+    told_bound: Option<u64>,
+    told_state: Option<(u8, u64)>,
+    told_plan: Option<u64>,
+    widest_m: f64,
+}
+
+impl Story {
+    /// The sentences that this adds to the story.
+    pub fn tell(&mut self, topic: &Topic) -> Vec<(Kind, String)> {
+        match topic {
+            Topic::Scene(scene) => {
+                self.table = Some(scene.clone());
+                Vec::new()
+            }
+            Topic::Query(query) => self.question(query).into_iter().collect(),
+            Topic::Evidence(log) => self.answers(log),
+            Topic::Bounds(bounds) => {
+                self.bounds = Some(bounds.clone());
+                self.bound_and_state()
+            }
+            Topic::Lesson(lesson) => {
+                self.lesson = Some(lesson.clone());
+                self.bound_and_state()
+            }
+            Topic::Plan(plan) => self.plan(plan).into_iter().collect(),
+            Topic::Receipt(_) => Vec::new(),
+        }
+    }
+
+    fn question(&mut self, query: &PlacementQuery) -> Option<(Kind, String)> {
+        if self.questions.contains(&query.id) {
+            return None;
+        }
+        self.questions.push(query.id.clone());
+        let moved = self.table.as_ref().map(|table| moved(table, &query.scene)).unwrap_or_default();
+        let when = if moved.is_empty() { " on the table as it is".to_owned() } else { format!(" if {moved}") };
+        let risk = if query.bound_m.is_finite() {
+            format!("worst case there {}", centimetres(query.bound_m))
+        } else {
+            "no bound there yet".to_owned()
+        };
+        let number = self.questions.len();
+        let target = short(&query.scene.target.label);
+        Some((Kind::Question, format!("{number:<3} where does the {target} belong{when}?  {risk}")))
+    }
+
+    fn answers(&mut self, log: &EvidenceLog) -> Vec<(Kind, String)> {
+        let newest = log.records.iter().map(|record| record.sequence).max().unwrap_or(0);
+        let told = self.told_evidence.replace(newest.max(self.told_evidence.unwrap_or(0)));
+        if told.is_none() && log.records.len() > 1 {
+            return vec![(Kind::Answer, format!("{newest:<3} answers and corrections are there already"))];
+        }
+        let told = told.unwrap_or(0);
+        let new = log.records.iter().filter(|record| record.sequence > told);
+        new.map(|record| (Kind::Answer, format!("{:<3} {}", record.sequence, said(record)))).collect()
+    }
+
+    /// The bound and the lesson's state come on two topics, in either order; they are told once both are there.
+    fn bound_and_state(&mut self) -> Vec<(Kind, String)> {
+        let (Some(bounds), Some(lesson)) = (&self.bounds, &self.lesson) else { return Vec::new() };
+        let mut lines = Vec::new();
+        if bounds.revision == lesson.revision && self.told_bound != Some(bounds.revision) {
+            self.told_bound = Some(bounds.revision);
+            if bounds.bound_m.is_finite() {
+                self.widest_m = self.widest_m.max(bounds.bound_m);
+            }
+            lines.push((Kind::Bound, bound_sentence(bounds, lesson.epsilon_m, self.widest_m)));
+        }
+        // An undo that reaches the same state again is a new revision, and told again.
+        let state = (lesson.state, lesson.revision);
+        if lesson.state == LessonStatus::ASKING {
+            self.told_state = None;
+        } else if self.told_state != Some(state) {
+            self.told_state = Some(state);
+            lines.push((Kind::Lesson, end_sentence(lesson)));
+        }
+        lines
+    }
+
+    fn plan(&mut self, plan: &PlacementPlan) -> Option<(Kind, String)> {
+        if !plan.query_id.is_empty() || !plan.inside_bound || self.told_plan == Some(plan.revision) {
+            return None;
+        }
+        self.told_plan = Some(plan.revision);
+        let target = self.table.as_ref().map_or("target".to_owned(), |table| short(&table.target.label));
+        if plan.outcome != PlacementPlan::PLANNED {
+            return Some((Kind::Plan, format!("    no way to place the {target}: {}", short(&plan.reason))));
+        }
+        let at = &plan.robust_placement;
+        let last = plan.trajectory.points.last().map_or(0.0, |point| point.time_from_start.seconds());
+        Some((Kind::Plan, format!("    the {target} goes to ({:.2}, {:.2}) m; the arm needs {last:.1} s", at.x, at.y)))
+    }
+}
+
+/// "plate_2 moves to (0.31, 0.72) m and …": the objects that stand elsewhere than on the table.
+fn moved(table: &TableScene, scene: &TableScene) -> String {
+    let labels: Vec<&str> = scene.objects.iter().map(|object| object.label.as_str()).collect();
+    let elsewhere = scene.objects.iter().filter(|object| {
+        let before = table.objects.iter().find(|known| known.id == object.id);
+        before.is_none_or(|known| known.pose.position != object.pose.position)
+    });
+    let sentences = elsewhere.map(|object| {
+        let unique = labels.iter().filter(|label| **label == object.label).count() == 1;
+        let name = if unique { format!("the {}", short(&object.label)) } else { short(&object.id) };
+        format!("{name} moves to ({:.2}, {:.2}) m", object.pose.position.x, object.pose.position.y)
+    });
+    sentences.collect::<Vec<_>>().join(" and ")
+}
+
+/// "simulated person: (0.50, 0.50) m → revision 3".
+fn said(record: &EvidenceRecord) -> String {
+    let who = |source: &str| short(source).replace('_', " ");
+    let revision = format!("\u{2192} revision {}", record.sequence);
+    if let Some(shown) = record.demonstration.first() {
+        let at = &shown.placement;
+        return format!("{}: ({:.2}, {:.2}) m  {revision}", who(&shown.source), at.x, at.y);
+    }
+    if let Some(undo) = record.retraction.first() {
+        return format!("{} takes back '{}'  {revision}", who(&undo.source), short(&undo.evidence_id));
+    }
+    if let Some(response) = record.response.first() {
+        let words = match response.kind {
+            QueryResponse::SKIP => "skip this one",
+            QueryResponse::CANT_TELL => "I can't tell",
+            QueryResponse::STOP => "stop, nothing is acceptable",
+            _ => "an unknown response",
+        };
+        let reason = if response.reason.is_empty() { String::new() } else { format!(" ({})", short(&response.reason)) };
+        return format!("{}: {words}{reason}  {revision}", who(&response.source));
+    }
+    format!("an empty record  {revision}")
+}
+
+fn bound_sentence(bounds: &PerformanceBounds, epsilon_m: f64, widest_m: f64) -> String {
+    if bounds.outcome != PlacementBound::BOUND || !bounds.bound_m.is_finite() {
+        let reason = short(bounds.reason.trim());
+        let known = reason.to_lowercase().starts_with("no bound");
+        return format!("    {}{reason}", if known { "" } else { "no bound, because " });
+    }
+    let one_in = (1.0 / (1.0 - bounds.alpha)).round();
+    let sure = 100.0 * (1.0 - bounds.delta);
+    format!(
+        "    {sure:.0} % sure: at most 1 reward in {one_in:.0} puts it more than {} off (\u{3b5} = {})  {}",
+        centimetres(bounds.bound_m),
+        centimetres(epsilon_m),
+        bar(bounds.bound_m, epsilon_m, widest_m),
+    )
+}
+
+/// A bar from 0 to the widest bound so far, with a mark at ε.
+fn bar(bound_m: f64, epsilon_m: f64, widest_m: f64) -> String {
+    let full_m = widest_m.max(1.5 * epsilon_m).max(f64::MIN_POSITIVE);
+    let cell = |m: f64| ((m / full_m * BAR as f64).round() as usize).min(BAR);
+    let (filled, mark) = (cell(bound_m), cell(epsilon_m));
+    let cells = (0..BAR).map(|i| {
+        let (on, here) = (i < filled, i == mark);
+        if here {
+            '\u{2506}'
+        } else if on {
+            '\u{2588}'
+        } else {
+            '\u{b7}'
+        }
+    });
+    format!("|{}|", cells.collect::<String>())
+}
+
+fn end_sentence(lesson: &LessonStatus) -> String {
+    let after = format!("after {} questions", lesson.questions_asked);
+    let reason = short(lesson.reason.trim());
+    match lesson.state {
+        LessonStatus::TAUGHT => {
+            let bound = format!("{} < \u{3b5} = {}", centimetres(lesson.bound_m), centimetres(lesson.epsilon_m));
+            format!("    taught {after}: the bound is {bound}")
+        }
+        LessonStatus::STOPPED => format!("    stopped {after}: {reason}"),
+        LessonStatus::GAVE_UP => format!("    gave up {after}: {reason}"),
+        _ => format!("    ended {after}: {reason}"),
+    }
+}
+
+fn centimetres(metres: f64) -> String {
+    format!("{:.1} cm", 100.0 * metres)
+}
+
+/// Others' text, cut and without characters that command a terminal.
+fn short(text: &str) -> String {
+    crate::log_line::harmless(text).chars().take(MAX_TEXT).collect()
+}

@@ -1,0 +1,149 @@
+//! What is left of a lesson when it is over: one JSON object.
+
+use crate::{Ledger, SessionRecord};
+use apprentice_msgs::msg::LessonStatus;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Duration;
+
+/// The summary of a lesson (`--summary FILE`). Lengths in metres; what is not known is null.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// Whether the bound is below ε.
+    pub taught: bool,
+    /// "asking", "taught", "stopped" or "gave_up".
+    pub state: &'static str,
+    /// The reason for the state, in words.
+    pub why: String,
+    /// Questions asked.
+    pub questions_asked: u32,
+    /// Answers accepted: placements and other responses, retracted ones included.
+    pub answers: u64,
+    /// Demonstrations that count now.
+    pub demonstrations: u32,
+    /// The newest bound.
+    pub last_bound_m: Option<f64>,
+    /// The bound to reach.
+    pub epsilon_m: Option<f64>,
+    /// Where the robot would put the target, from above: x, y.
+    pub placement_m: Option<[f64; 2]>,
+    /// From the start of the command to now.
+    pub wall_time_s: f64,
+    /// From the start of the command to the first question.
+    pub start_to_first_question_s: Option<f64>,
+    /// From an answer's acceptance to the next question, or to the end of the lesson.
+    pub answer_to_next_question_ms: Percentiles,
+    /// The bag's folder.
+    pub bag: Option<String>,
+    /// The session's folder.
+    pub session: String,
+    /// Scenario's name or file.
+    pub scenario: String,
+    /// Who answered: "simulated" or "human".
+    pub demonstrator: &'static str,
+    /// Seed of every node.
+    pub seed: i64,
+    /// Version of the executable.
+    pub version: &'static str,
+    /// Commit that the executable was built from.
+    pub commit: String,
+    /// Per node.
+    pub nodes: BTreeMap<&'static str, NodeCount>,
+}
+
+/// How often a node was started, and how often it died unasked.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct NodeCount {
+    /// Times it was started.
+    pub starts: u32,
+    /// Times it died.
+    pub deaths: u32,
+}
+
+/// Percentiles by nearest rank.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Percentiles {
+    /// Median.
+    pub p50: Option<f64>,
+    /// 99th percentile.
+    pub p99: Option<f64>,
+    /// How many there were.
+    pub n: usize,
+}
+
+impl Percentiles {
+    /// Of sorted numbers.
+    pub fn of(sorted: &[f64]) -> Self {
+        let n = sorted.len();
+        let rank = |percent: usize| sorted.get((percent * n).div_ceil(100).saturating_sub(1)).copied();
+        Self { p50: rank(50), p99: rank(99), n }
+    }
+}
+
+/// What the summary takes from elsewhere than the ledger.
+#[derive(Debug, Clone)]
+pub struct Circumstances {
+    /// What the session was begun with.
+    pub record: SessionRecord,
+    /// The session's folder.
+    pub session: String,
+    /// The bag's folder.
+    pub bag: Option<String>,
+    /// Who answers.
+    pub demonstrator: &'static str,
+    /// Commit that the executable was built from.
+    pub commit: String,
+}
+
+impl Summary {
+    /// The summary as of `now`; `why` overrules the lesson's own reason when the lesson did not end by itself.
+    pub fn new(
+        circumstances: &Circumstances,
+        ledger: &Ledger,
+        nodes: BTreeMap<&'static str, NodeCount>,
+        now: Duration,
+        why: Option<&str>,
+    ) -> Self {
+        let lesson = ledger.lesson.as_ref();
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let state = lesson.map_or(LessonStatus::ASKING, |lesson| lesson.state);
+        let own_reason = lesson.map_or("no question was asked", |lesson| lesson.reason.as_str());
+        Self {
+            taught: state == LessonStatus::TAUGHT,
+            state: match state {
+                LessonStatus::TAUGHT => "taught",
+                LessonStatus::STOPPED => "stopped",
+                LessonStatus::GAVE_UP => "gave_up",
+                _ => "asking",
+            },
+            why: why.filter(|_| state == LessonStatus::ASKING).unwrap_or(own_reason).to_owned(),
+            questions_asked: lesson.map_or(0, |lesson| lesson.questions_asked),
+            answers: ledger.answers,
+            demonstrations: lesson.map_or(0, |lesson| lesson.demonstrations),
+            last_bound_m: lesson.and_then(|lesson| finite(lesson.bound_m)),
+            epsilon_m: lesson.and_then(|lesson| finite(lesson.epsilon_m)),
+            placement_m: ledger.plan.as_ref().map(|plan| [plan.robust_placement.x, plan.robust_placement.y]),
+            wall_time_s: now.as_secs_f64(),
+            start_to_first_question_s: ledger.first_question.map(|at| at.as_secs_f64()),
+            answer_to_next_question_ms: Percentiles::of(&ledger.latencies_ms()),
+            bag: circumstances.bag.clone(),
+            session: circumstances.session.clone(),
+            scenario: circumstances.record.scenario.clone(),
+            demonstrator: circumstances.demonstrator,
+            seed: circumstances.record.seed,
+            version: env!("CARGO_PKG_VERSION"),
+            commit: circumstances.commit.clone(),
+            nodes,
+        }
+    }
+
+    /// Writes the summary so that a reader sees all of it or nothing.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, path: &Path) -> std::io::Result<()> {
+        let text = serde_json::to_string_pretty(self)? + "\n";
+        crate::session::write_whole(path, &text)
+    }
+}

@@ -1,0 +1,268 @@
+//! Claims about what is told of a lesson, and what is counted.
+
+use apprentice_msgs::builtin_interfaces::Duration as TimeFromStart;
+use apprentice_msgs::geometry_msgs::Point;
+use apprentice_msgs::msg::{
+    EvidenceLog, EvidenceReceipt, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound,
+    PlacementDemonstration, PlacementPlan, PlacementQuery, QueryResponse, Retraction, SceneObject, TableScene,
+};
+use apprentice_msgs::trajectory_msgs::JointTrajectoryPoint;
+use bringup::{Circumstances, Kind, Ledger, NodeCount, Percentiles, SessionRecord, Story, Summary, Topic};
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+fn object(id: &str, label: &str, x: f64, y: f64) -> SceneObject {
+    let mut object = SceneObject { id: id.to_owned(), label: label.to_owned(), ..SceneObject::default() };
+    object.pose.position = Point { x, y, z: 0.0 };
+    object
+}
+
+fn table() -> TableScene {
+    TableScene {
+        objects: vec![
+            object("plate_1", "plate", 0.2, 0.7),
+            object("plate_2", "plate", 0.7, 0.7),
+            object("cup", "cup", 0.2, 0.2),
+        ],
+        target: object("vase", "vase", 0.0, 0.0),
+        ..TableScene::default()
+    }
+}
+
+fn query(id: &str, revision: u64, bound_m: f64) -> PlacementQuery {
+    PlacementQuery { id: id.to_owned(), revision, bound_m, scene: table(), ..PlacementQuery::default() }
+}
+
+fn lesson(revision: u64, state: u8, bound_m: f64) -> LessonStatus {
+    LessonStatus {
+        revision,
+        state,
+        bound_m,
+        epsilon_m: 0.1,
+        questions_asked: 12,
+        demonstrations: 11,
+        reason: "because".to_owned(),
+        ..LessonStatus::default()
+    }
+}
+
+fn bounds(revision: u64, bound_m: f64) -> PerformanceBounds {
+    PerformanceBounds { revision, bound_m, alpha: 0.95, delta: 0.05, ..PerformanceBounds::default() }
+}
+
+fn texts(lines: Vec<(Kind, String)>) -> Vec<String> {
+    lines.into_iter().map(|(_, text)| text.trim().to_owned()).collect()
+}
+
+fn evidence() -> EvidenceLog {
+    let shown = PlacementDemonstration {
+        source: "simulated_person".to_owned(),
+        placement: Point { x: 0.5, y: 0.5, z: 0.0 },
+        ..PlacementDemonstration::default()
+    };
+    let undo = Retraction { evidence_id: "a-1".to_owned(), source: "operator".to_owned(), ..Retraction::default() };
+    let stop = QueryResponse { kind: QueryResponse::STOP, source: "operator".to_owned(), ..QueryResponse::default() };
+    let record = |sequence, kind| EvidenceRecord { sequence, kind, ..EvidenceRecord::default() };
+    let mut records = vec![
+        record(1, EvidenceRecord::DEMONSTRATION),
+        record(2, EvidenceRecord::RETRACTION),
+        record(3, EvidenceRecord::RESPONSE),
+    ];
+    records[0].demonstration.push(shown);
+    records[1].retraction.push(undo);
+    records[2].response.push(stop);
+    EvidenceLog { records, ..EvidenceLog::default() }
+}
+
+#[test]
+fn a_question_names_what_moved_by_label_or_by_id_where_labels_repeat_and_is_told_once() {
+    let mut story = Story::default();
+    story.tell(&Topic::Scene(table()));
+    let first = story.tell(&Topic::Query(query("q1", 0, f64::NAN)));
+    assert_eq!(texts(first), ["1   where does the vase belong on the table as it is?  no bound there yet"]);
+    let mut moved = query("q2", 1, 0.142);
+    moved.scene.objects[1].pose.position = Point { x: 0.31, y: 0.72, z: 0.0 };
+    moved.scene.objects[2].pose.position.x = 0.9;
+    let told = texts(story.tell(&Topic::Query(moved.clone())));
+    let wanted = "2   where does the vase belong if plate_2 moves to (0.31, 0.72) m and the cup moves to (0.90, 0.20) m?  \
+                  worst case there 14.2 cm";
+    assert_eq!(told, [wanted]);
+    assert!(story.tell(&Topic::Query(moved)).is_empty());
+}
+
+#[test]
+fn every_piece_of_evidence_is_told_once_and_a_continued_session_in_one_line() {
+    let mut story = Story::default();
+    let mut log = evidence();
+    let all = log.records.clone();
+    log.records.truncate(1);
+    assert_eq!(
+        texts(story.tell(&Topic::Evidence(log.clone()))),
+        ["1   simulated person: (0.50, 0.50) m  \u{2192} revision 1"]
+    );
+    assert!(story.tell(&Topic::Evidence(log.clone())).is_empty());
+    log.records = all;
+    let rest = texts(story.tell(&Topic::Evidence(log.clone())));
+    assert_eq!(rest.len(), 2);
+    assert!(
+        rest[0].contains("operator takes back 'a-1'") && rest[1].contains("stop, nothing is acceptable"),
+        "{rest:?}"
+    );
+    let continued = texts(Story::default().tell(&Topic::Evidence(log)));
+    assert_eq!(continued, ["3   answers and corrections are there already"]);
+}
+
+#[test]
+fn the_bound_is_told_once_in_whichever_order_its_two_topics_come() {
+    for swapped in [false, true] {
+        let mut story = Story::default();
+        let mut topics = vec![Topic::Bounds(bounds(3, 0.124)), Topic::Lesson(lesson(3, LessonStatus::ASKING, 0.124))];
+        if swapped {
+            topics.reverse();
+        }
+        assert!(story.tell(&topics[0]).is_empty());
+        let told = texts(story.tell(&topics[1]));
+        assert_eq!(told.len(), 1);
+        let wanted = "95 % sure: at most 1 reward in 20 puts it more than 12.4 cm off (\u{3b5} = 10.0 cm)  |";
+        assert!(told[0].starts_with(wanted), "{told:?}");
+        assert!(story.tell(&topics[0]).is_empty() && story.tell(&topics[1]).is_empty());
+    }
+}
+
+#[test]
+fn without_a_bound_the_reason_is_told() {
+    let mut story = Story::default();
+    let mut none = bounds(1, f64::NAN);
+    none.outcome = PlacementBound::NOT_ENOUGH_SAMPLES;
+    none.reason = "no bound, because 40 effective draws are fewer than 59".to_owned();
+    story.tell(&Topic::Bounds(none.clone()));
+    assert_eq!(texts(story.tell(&Topic::Lesson(lesson(1, LessonStatus::ASKING, f64::NAN)))), [none.reason]);
+}
+
+#[test]
+fn the_end_is_told_and_told_again_only_after_it_was_taken_back() {
+    let mut story = Story::default();
+    story.tell(&Topic::Bounds(bounds(12, 0.09)));
+    let end = Topic::Lesson(lesson(12, LessonStatus::TAUGHT, 0.09));
+    let told = texts(story.tell(&end));
+    assert_eq!(
+        told.last().map(String::as_str),
+        Some("taught after 12 questions: the bound is 9.0 cm < \u{3b5} = 10.0 cm")
+    );
+    assert!(story.tell(&end).is_empty());
+    story.tell(&Topic::Lesson(lesson(13, LessonStatus::ASKING, 0.11)));
+    let again = texts(story.tell(&Topic::Lesson(lesson(14, LessonStatus::GAVE_UP, 0.11))));
+    assert_eq!(again, ["gave up after 12 questions: because"]);
+}
+
+fn plan(revision: u64) -> PlacementPlan {
+    let mut plan = PlacementPlan { revision, inside_bound: true, ..PlacementPlan::default() };
+    plan.robust_placement = Point { x: 0.5, y: 0.52, z: 0.0 };
+    plan.trajectory.points.push(JointTrajectoryPoint {
+        time_from_start: TimeFromStart::from_seconds(4.2),
+        ..JointTrajectoryPoint::default()
+    });
+    plan
+}
+
+#[test]
+fn a_plan_is_told_when_the_robot_may_move_and_guesses_are_not() {
+    let mut story = Story::default();
+    story.tell(&Topic::Scene(table()));
+    let told = texts(story.tell(&Topic::Plan(plan(12))));
+    assert_eq!(told, ["the vase goes to (0.50, 0.52) m; the arm needs 4.2 s"]);
+    assert!(story.tell(&Topic::Plan(plan(12))).is_empty());
+    let guess = PlacementPlan { query_id: "q".to_owned(), ..plan(13) };
+    assert!(story.tell(&Topic::Plan(guess)).is_empty());
+    assert!(story.tell(&Topic::Plan(PlacementPlan { inside_bound: false, ..plan(13) })).is_empty());
+}
+
+#[test]
+fn text_from_the_graph_cannot_command_the_terminal_or_flood_it() {
+    let mut story = Story::default();
+    let mut hostile = query("q", 0, f64::NAN);
+    hostile.scene.target.label = format!("\u{1b}[2J{}", "v".repeat(100_000));
+    let told = texts(story.tell(&Topic::Query(hostile)));
+    assert!(told[0].len() < 400 && !told[0].contains('\u{1b}'));
+}
+
+fn seconds(s: u64) -> Duration {
+    Duration::from_secs(s)
+}
+
+fn accepted(revision: u64) -> Topic {
+    Topic::Receipt(EvidenceReceipt { revision, outcome: EvidenceReceipt::ACCEPTED, ..EvidenceReceipt::default() })
+}
+
+#[test]
+fn latencies_run_from_acceptance_to_the_first_question_that_knows_of_it() {
+    let mut ledger = Ledger::default();
+    ledger.note(seconds(2), &Topic::Query(query("q1", 0, f64::NAN)));
+    ledger.note(seconds(3), &accepted(1));
+    ledger.note(seconds(4), &Topic::Query(query("q1", 0, f64::NAN)));
+    ledger.note(seconds(5), &Topic::Query(query("q2", 1, 0.2)));
+    ledger.note(seconds(6), &Topic::Query(query("q2", 1, 0.2)));
+    // Revision 2 is overtaken by 3 before any question knows of it; only 3 was waited for.
+    ledger.note(seconds(7), &accepted(2));
+    ledger.note(seconds(8), &accepted(3));
+    ledger.note(seconds(9), &Topic::Lesson(lesson(3, LessonStatus::ASKING, 0.2)));
+    ledger.note(seconds(12), &Topic::Lesson(lesson(3, LessonStatus::TAUGHT, 0.09)));
+    assert_eq!(ledger.latencies_ms(), [2000.0, 4000.0]);
+    assert_eq!(ledger.first_question, Some(seconds(2)));
+    assert!(ledger.is_over() && !ledger.has_final_plan());
+    ledger.note(seconds(13), &Topic::Plan(plan(2)));
+    assert!(!ledger.has_final_plan());
+    ledger.note(seconds(13), &Topic::Plan(plan(3)));
+    assert!(ledger.has_final_plan());
+}
+
+fn circumstances() -> Circumstances {
+    Circumstances {
+        record: SessionRecord { scenario: "flowers".to_owned(), seed: 7, version: "0".to_owned() },
+        session: "bags/s".to_owned(),
+        bag: Some("bags/s/bag".to_owned()),
+        demonstrator: "simulated",
+        commit: "abc".to_owned(),
+    }
+}
+
+#[test]
+fn the_summary_says_what_happened_and_null_for_what_did_not() {
+    let counts = BTreeMap::from([("active_query", NodeCount { starts: 2, deaths: 1 })]);
+    let mut ledger = Ledger::default();
+    let nothing = Summary::new(&circumstances(), &ledger, counts.clone(), seconds(3), Some("interrupted by SIGINT"));
+    assert_eq!((nothing.taught, nothing.state, nothing.why.as_str()), (false, "asking", "interrupted by SIGINT"));
+    ledger.note(seconds(1), &Topic::Query(query("q1", 0, f64::NAN)));
+    ledger.note(seconds(1), &Topic::Evidence(evidence()));
+    ledger.note(seconds(2), &accepted(1));
+    ledger.note(seconds(3), &Topic::Lesson(lesson(12, LessonStatus::TAUGHT, 0.09)));
+    ledger.note(seconds(3), &Topic::Plan(plan(12)));
+    let root = tempfile::tempdir().expect("a folder");
+    let path = root.path().join("summary.json");
+    Summary::new(&circumstances(), &ledger, counts, seconds(9), Some("interrupted by SIGINT"))
+        .write(&path)
+        .expect("writes");
+    let text = std::fs::read_to_string(&path).expect("reads");
+    let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let wanted = serde_json::json!({
+        "taught": true, "state": "taught", "why": "because", "questions_asked": 12, "answers": 2, "demonstrations": 11,
+        "last_bound_m": 0.09, "epsilon_m": 0.1, "placement_m": [0.5, 0.52], "wall_time_s": 9.0,
+        "start_to_first_question_s": 1.0, "answer_to_next_question_ms": {"p50": 1000.0, "p99": 1000.0, "n": 1},
+        "bag": "bags/s/bag", "session": "bags/s", "scenario": "flowers", "demonstrator": "simulated", "seed": 7,
+        "version": env!("CARGO_PKG_VERSION"), "commit": "abc", "nodes": {"active_query": {"starts": 2, "deaths": 1}}
+    });
+    assert_eq!(json, wanted);
+    let files = std::fs::read_dir(root.path()).expect("reads").count();
+    assert_eq!(files, 1, "a partial file was left");
+    ledger.note(seconds(10), &Topic::Lesson(lesson(13, LessonStatus::ASKING, f64::NAN)));
+    let without = Summary::new(&circumstances(), &ledger, BTreeMap::new(), seconds(10), None);
+    assert_eq!(without.last_bound_m, None);
+}
+
+#[test]
+fn percentiles_are_nearest_ranks() {
+    let hundred: Vec<f64> = (1..=100).map(f64::from).collect();
+    assert_eq!(Percentiles::of(&hundred), Percentiles { p50: Some(50.0), p99: Some(99.0), n: 100 });
+    assert_eq!(Percentiles::of(&[3.0]), Percentiles { p50: Some(3.0), p99: Some(3.0), n: 1 });
+    assert_eq!(Percentiles::of(&[]), Percentiles { p50: None, p99: None, n: 0 });
+}

@@ -1,0 +1,183 @@
+//! The node as a pure state machine: questions in, answers out, each repeated until its receipt comes.
+
+use crate::{Answer, Person, Settings, answer_id};
+use apprentice_msgs::builtin_interfaces::Time;
+use apprentice_msgs::geometry_msgs;
+use apprentice_msgs::msg::{EvidenceReceipt, PlacementDemonstration, PlacementQuery, QueryResponse};
+use apprentice_msgs::std_msgs::Header;
+
+/// Most answers waiting for a receipt; beyond it the oldest is dropped, which only its asker could have wanted.
+pub const MAX_PENDING: usize = 64;
+
+/// What the node takes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Event {
+    /// A question, perhaps one seen before.
+    Query(PlacementQuery),
+    /// What became of a piece of evidence, perhaps somebody else's.
+    Receipt(EvidenceReceipt),
+    /// Time passed.
+    Tick,
+}
+
+/// What the node gives.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Output {
+    /// An answer that is a placement.
+    Demonstration(PlacementDemonstration),
+    /// An answer that is not.
+    Response(QueryResponse),
+    /// Something for the log.
+    Warning(String),
+}
+
+/// The simulated person on the graph.
+#[derive(Debug)]
+pub struct DemonstratorNode {
+    person: Person,
+    source: String,
+    seed: u64,
+    delay_ns: i128,
+    period_ns: i128,
+    pending: Vec<Pending>,
+    /// Ids of the latest questions that were dealt with, oldest first.
+    settled: Vec<String>,
+    warned_features: bool,
+}
+
+#[derive(Debug)]
+struct Pending {
+    id: String,
+    query_id: String,
+    message: Output,
+    due_ns: i128,
+    sent: bool,
+}
+
+impl DemonstratorNode {
+    /// A person who has heard no question yet.
+    pub fn new(settings: &Settings) -> Self {
+        let nanoseconds = |seconds: f64| (seconds * 1e9) as i128;
+        Self {
+            person: Person::new(settings),
+            source: settings.source.clone(),
+            seed: bus::NodeSettings::seed(settings),
+            delay_ns: nanoseconds(settings.response_delay_s),
+            period_ns: nanoseconds(settings.republish_period_s),
+            pending: Vec::new(),
+            settled: Vec::new(),
+            warned_features: false,
+        }
+    }
+
+    /// Answers waiting for a receipt.
+    pub fn n_pending(&self) -> usize {
+        self.pending.len()
+    }
+
+    /// Takes one event; `now` stamps new answers and paces repetitions.
+    pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
+        let mut outputs = Vec::new();
+        match event {
+            Event::Query(query) => self.hear(&now, query, &mut outputs),
+            Event::Receipt(receipt) => self.settle(receipt, &mut outputs),
+            Event::Tick => {}
+        }
+        self.send_due(now.nanoseconds(), &mut outputs);
+        outputs
+    }
+
+    fn hear(&mut self, now: &Time, query: PlacementQuery, outputs: &mut Vec<Output>) {
+        if query.id.is_empty() {
+            return outputs.push(Output::Warning("ignored a question without an id".to_owned()));
+        }
+        if self.settled.contains(&query.id) || self.pending.iter().any(|pending| pending.query_id == query.id) {
+            return;
+        }
+        match self.answer(now, &query, outputs) {
+            Ok(message) => {
+                if self.pending.len() == MAX_PENDING {
+                    let dropped = self.pending.remove(0);
+                    let text = format!("gave up on a receipt for the answer to question '{}'", dropped.query_id);
+                    outputs.push(Output::Warning(text));
+                }
+                self.pending.push(Pending {
+                    id: answer_id(&self.source, &query.id, self.seed),
+                    query_id: query.id,
+                    message,
+                    due_ns: now.nanoseconds() + self.delay_ns,
+                    sent: false,
+                });
+            }
+            Err(reason) => {
+                outputs.push(Output::Warning(format!("cannot answer question '{}': {reason}", query.id)));
+                self.remember(query.id);
+            }
+        }
+    }
+
+    fn answer(&mut self, now: &Time, query: &PlacementQuery, outputs: &mut Vec<Output>) -> Result<Output, String> {
+        let scene = exchange::scene_from_message(&query.scene).map_err(|error| error.to_string())?;
+        let unknown = self.person.unknown_features(&scene);
+        if !self.warned_features && !unknown.is_empty() {
+            let text = format!("the person's reward names features that are not on this table: {}", unknown.join(", "));
+            outputs.push(Output::Warning(text));
+            self.warned_features = true;
+        }
+        let answer = self.person.answer(&query.id, &scene).map_err(|error| error.to_string())?;
+        let id = answer_id(&self.source, &query.id, self.seed);
+        let header = Header { stamp: now.clone(), frame_id: query.scene.header.frame_id.clone() };
+        let response = |header, id, kind, reason: &str| {
+            Output::Response(QueryResponse {
+                header,
+                id,
+                query_id: query.id.clone(),
+                source: self.source.clone(),
+                kind,
+                reason: reason.to_owned(),
+            })
+        };
+        Ok(match answer {
+            Answer::Place(at_m) => Output::Demonstration(PlacementDemonstration {
+                header,
+                id,
+                query_id: query.id.clone(),
+                source: self.source.clone(),
+                scene: query.scene.clone(),
+                placement: geometry_msgs::Point { x: at_m.x, y: at_m.y, z: 0.0 },
+                confidence: PlacementDemonstration::CONFIDENCE_SURE,
+            }),
+            Answer::Skip => response(header, id, QueryResponse::SKIP, ""),
+            Answer::CantTell { reason } => response(header, id, QueryResponse::CANT_TELL, reason),
+        })
+    }
+
+    fn settle(&mut self, receipt: EvidenceReceipt, outputs: &mut Vec<Output>) {
+        let Some(at) = self.pending.iter().position(|pending| pending.id == receipt.id) else { return };
+        let answered = self.pending.remove(at);
+        if receipt.outcome == EvidenceReceipt::REFUSED {
+            let text = format!("the answer to question '{}' was refused: {}", answered.query_id, receipt.reason);
+            outputs.push(Output::Warning(text));
+        }
+        self.remember(answered.query_id);
+    }
+
+    fn remember(&mut self, query_id: String) {
+        if self.settled.len() == MAX_PENDING {
+            self.settled.remove(0);
+        }
+        self.settled.push(query_id);
+    }
+
+    fn send_due(&mut self, now_ns: i128, outputs: &mut Vec<Output>) {
+        for pending in &mut self.pending {
+            // A clock that jumped back (a looped replay) must not silence an answer for longer than its period.
+            let longest = if pending.sent { self.period_ns } else { self.delay_ns };
+            if now_ns >= pending.due_ns || pending.due_ns - now_ns > longest {
+                pending.due_ns = now_ns + self.period_ns;
+                pending.sent = true;
+                outputs.push(pending.message.clone());
+            }
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Wires the node to the graph.
+
+use crate::{DemonstratorNode, Event, Output, Settings};
+use bus::{Arguments, Bus, Graph, NodeError, Qos};
+use std::time::Duration;
+
+/// Questions are answered and answers repeated at this resolution.
+const TICK: Duration = Duration::from_millis(50);
+
+/// Runs the node until the graph is shut down or the process is asked to end.
+///
+/// # Errors
+/// When the parameters are bad or the graph cannot be joined.
+pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
+    let settings: Settings = arguments.settings()?;
+    let mut bus: Bus<Event> = Bus::open(graph, arguments, &settings)?;
+    let demonstration = bus.publisher("demonstration", Qos::Event)?;
+    let response = bus.publisher("response", Qos::Event)?;
+    bus.subscribe("receipt", Qos::Event, Event::Receipt)?;
+    bus.subscribe("query", Qos::State, Event::Query)?;
+    bus.every(TICK, || Event::Tick);
+    let mut node = DemonstratorNode::new(&settings);
+    while let Some((now, event)) = bus.next() {
+        for output in node.step(now, event) {
+            match output {
+                Output::Demonstration(message) => demonstration.publish(&message)?,
+                Output::Response(message) => response.publish(&message)?,
+                Output::Warning(text) => log::warn!("{text}"),
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,145 @@
+//! The world as a pure state machine: time and trajectories in, the table and the arm's joints out.
+
+use crate::{Follower, LayoutError, RobotError, RobotModel, Settings, scene_markers, task_scene};
+use apprentice_msgs::builtin_interfaces::Time;
+use apprentice_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
+use apprentice_msgs::msg::TableScene;
+use apprentice_msgs::sensor_msgs::JointState;
+use apprentice_msgs::std_msgs::{self, Header};
+use apprentice_msgs::tf2_msgs::TFMessage;
+use apprentice_msgs::trajectory_msgs::JointTrajectory;
+use apprentice_msgs::visualization_msgs::MarkerArray;
+use scene::Scene;
+use thiserror::Error;
+
+/// What the node takes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Event {
+    /// Say again what stands on the table.
+    Announce,
+    /// Say where the joints are.
+    Tick,
+    /// Move the arm.
+    Trajectory(JointTrajectory),
+}
+
+/// What the node gives.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Output {
+    /// What stands on the table.
+    Scene(TableScene),
+    /// The same for viewers.
+    Markers(MarkerArray),
+    /// The robot's URDF.
+    RobotDescription(std_msgs::String),
+    /// Where the robot stands.
+    Transform(TFMessage),
+    /// Where the joints are.
+    Joints(JointState),
+    /// Something for the log.
+    Warning(String),
+}
+
+/// Why there is no world.
+#[derive(Debug, Error)]
+pub enum TableError {
+    /// The table.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+    /// The robot.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+}
+
+/// The simulated world.
+#[derive(Debug)]
+pub struct SimulatedTableNode {
+    scene: Scene,
+    robot: RobotModel,
+    base_m: [f64; 3],
+    base_yaw_rad: f64,
+    follower: Follower,
+    announced: Option<Time>,
+    announcements: u64,
+}
+
+/// The robot's description is said again with every so many announcements of the table.
+const ROBOT_EVERY: u64 = 5;
+
+impl SimulatedTableNode {
+    /// The world that the settings describe; `urdf` is the text of the robot's description.
+    ///
+    /// # Errors
+    /// When the table or the robot is wrong.
+    pub fn new(settings: &Settings, urdf: String) -> Result<Self, TableError> {
+        let robot = RobotModel::new(urdf, &settings.start_positions)?;
+        let base = &settings.robot_base_position_m;
+        Ok(Self {
+            scene: task_scene(settings)?,
+            follower: Follower::new(robot.joints.clone(), robot.start.clone()),
+            robot,
+            base_m: std::array::from_fn(|i| base.get(i).copied().unwrap_or(0.0)),
+            base_yaw_rad: settings.robot_base_yaw_rad,
+            announced: None,
+            announcements: 0,
+        })
+    }
+
+    /// The table.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Takes one event at a time.
+    pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
+        match event {
+            Event::Announce => self.announce(now),
+            Event::Tick => vec![Output::Joints(self.joints(now))],
+            Event::Trajectory(trajectory) => match self.follower.follow(now.nanoseconds(), &trajectory) {
+                Ok(()) => Vec::new(),
+                Err(error) => vec![Output::Warning(format!("ignored a joint trajectory: {error}"))],
+            },
+        }
+    }
+
+    /// The table keeps the stamp of its first announcement: it has not changed since.
+    fn announce(&mut self, now: Time) -> Vec<Output> {
+        let with_robot = self.announcements.is_multiple_of(ROBOT_EVERY);
+        self.announcements += 1;
+        let stamp = self.announced.get_or_insert(now).clone();
+        let scene = exchange::scene_to_message(&self.scene, stamp.clone());
+        let mut outputs = vec![Output::Scene(scene), Output::Markers(scene_markers(&self.scene, &stamp))];
+        if with_robot {
+            outputs.push(Output::RobotDescription(std_msgs::String { data: self.robot.urdf.clone() }));
+            // A robot whose root link is the table itself needs no transform.
+            if self.robot.root != self.scene.frame {
+                outputs.push(Output::Transform(self.transform(stamp)));
+            }
+        }
+        outputs
+    }
+
+    fn transform(&self, stamp: Time) -> TFMessage {
+        let (sin, cos) = (0.5 * self.base_yaw_rad).sin_cos();
+        let [x, y, z] = self.base_m;
+        TFMessage {
+            transforms: vec![TransformStamped {
+                header: Header { stamp, frame_id: self.scene.frame.clone() },
+                child_frame_id: self.robot.root.clone(),
+                transform: Transform {
+                    translation: Vector3 { x, y, z },
+                    rotation: Quaternion { x: 0.0, y: 0.0, z: sin, w: cos },
+                },
+            }],
+        }
+    }
+
+    fn joints(&self, now: Time) -> JointState {
+        JointState {
+            name: self.follower.joints().iter().map(|joint| joint.name.clone()).collect(),
+            position: self.follower.positions(now.nanoseconds()),
+            header: Header { stamp: now, frame_id: String::new() },
+            ..JointState::default()
+        }
+    }
+}
