@@ -39,12 +39,21 @@ export class Link {
       this.heard = Date.now();
       this.receive(JSON.parse(event.data));
     };
+    let opened = false;
+    socket.addEventListener("open", () => { opened = true; });
     socket.onclose = () => {
       if (socket !== this.socket) return;
       this.on.status("lost");
+      if (!opened) this.askWhy();
       this.timer = setTimeout(() => this.open(), this.delay);
       this.delay = Math.min(this.delay * 1.7, 4000);
     };
+  }
+
+  /** A socket does not say why it was turned away; a plain request does. */
+  async askWhy() {
+    const answer = await fetch("icon.svg", { cache: "no-store" }).catch(() => null);
+    if (answer && answer.status === 401) this.on.status("expired");
   }
 
   /** A connection that has gone silent is given up and opened anew. */

@@ -39,9 +39,10 @@ function sections(changed) {
   Object.assign(state, changed);
   const sent = state.answers.find((answer) => answer.id === own.sent);
   if (sent?.state === "refused" && own.sentFor !== null) Object.assign(own, { sentFor: null, problem: `Refused: ${sent.reason}` });
+  if (own.correcting && own.sentFor === "" && sent?.state === "accepted") Object.assign(own, { correcting: false, sentFor: null, at: null, revealed: false });
   const key = state.question?.open ? state.question.id : null;
   if (key !== null && own.question !== key) {
-    Object.assign(own, { question: key, at: null, revealed: false, sentFor: null, correcting: false, problem: "" });
+    Object.assign(own, { question: key, at: null, revealed: false, sentFor: null, correcting: false, problem: "", look: null });
     document.querySelector('input[name="confidence"][value="sure"]').checked = true;
     table.place(null);
   }
@@ -49,6 +50,7 @@ function sections(changed) {
 }
 
 function status(word) {
+  if (word === "expired" && own.status !== word) notice("This page's address is no longer valid: open the one that the operator page printed when it started.");
   own.status = word;
   renderConnection();
 }
@@ -125,6 +127,7 @@ $("stop").addEventListener("click", () => { $("stop-dialog").returnValue = ""; $
 $("stop-dialog").addEventListener("close", () => { if ($("stop-dialog").returnValue === "stop") respond("stop", $("stop-reason").value); $("stop-reason").value = ""; });
 $("heat").addEventListener("change", () => { own.heat = $("heat").checked; render(); });
 $("log-scale").addEventListener("change", renderProgress);
+$("answers").addEventListener("pointerleave", () => look(null));
 $("theme").addEventListener("click", () => setTheme(isDark() ? "light" : "dark"));
 dark.addEventListener("change", render);
 for (const kind of ["keydown", "pointerdown"]) addEventListener(kind, () => { document.documentElement.dataset.input = kind; }, true);
@@ -231,9 +234,9 @@ function renderAnswer() {
   const far = submittable && isUnreachable(map, shown, own.at);
   text("hint", own.problem ? own.problem
     : blocked ? `Not there: ${blocked}.`
-    : far ? "The arm does not reach this spot. You may still say that it belongs there."
-    : teaching && !own.at ? `Drag the ${name} onto the table, or use the arrow keys.`
-    : submittable ? "Fine-tune with the arrow keys: 5 mm, with Shift 2 cm." : "");
+    : far ? "The arm does not reach this spot, but you may say so."
+    : teaching && !own.at ? "Drag it there, or use the arrow keys."
+    : submittable ? "Arrow keys: 5 mm, with Shift 2 cm." : "");
   $("hint").dataset.tone = own.problem || blocked ? "bad" : far ? "warn" : "";
   for (const id of ["skip", "cant-tell"]) $(id).disabled = !asking;
   $("stop").disabled = lessonState() === "waiting" || lessonState() === "stopped";
@@ -255,7 +258,7 @@ function renderGuess(map, shown, name) {
   const guess = map?.map_placement;
   let words = "", distance = null;
   if (showsQuestion() || own.correcting) {
-    if (!own.revealed) words = `The robot's own guess stays hidden until you have placed the ${name}, so that it does not sway you.`;
+    if (!own.revealed) words = `The robot's guess stays hidden until you have placed the ${name}.`;
     else if (guess && own.at) {
       distance = Math.hypot(guess.x_m - own.at.x, guess.y_m - own.at.y);
       words = `The robot guessed ${cm(distance)} from yours.`;
@@ -282,10 +285,10 @@ function look(answer) {
 
 function renderConnection() {
   const gone = state.nodes.filter((n) => n.state !== "alive"), open = own.status === "open";
-  const value = !open ? (own.status === "lost" ? "lost" : "connecting") : gone.some((n) => n.state === "gone") ? "gone" : gone.length ? "late" : "open";
+  const value = !open ? own.status ?? "connecting" : gone.some((n) => n.state === "gone") ? "gone" : gone.length ? "late" : "open";
   $("connection").dataset.value = value;
-  text("connection-text", !open ? (own.status === "lost" ? "Reconnecting…" : "Connecting…") : gone.length ? `${gone[0].name} ${gone[0].state}` : "Connected");
-  document.body.classList.toggle("offline", own.status === "lost");
+  text("connection-text", !open ? { lost: "Reconnecting…", expired: "Open the new address" }[own.status] ?? "Connecting…" : gone.length ? `${gone[0].name} ${gone[0].state}` : "Connected");
+  document.body.classList.toggle("offline", !open && own.status !== undefined);
   const list = $("node-list"), key = JSON.stringify([open, state.nodes]);
   if (list.dataset.key === key) return;
   list.dataset.key = key;

@@ -38,6 +38,8 @@ export class TableView {
   /** Puts the target at a place, or back beside the table. */
   place(at) {
     this.at = at;
+    this.grip = null;
+    this.target.classList.remove("held");
     this.drawTarget();
   }
 
@@ -97,6 +99,9 @@ export class TableView {
     this.target.classList.toggle("waiting", !this.at);
     const guess = this.view.reveal && this.view.plan?.map_placement;
     this.target.lastChild.setAttribute("y", this.at && guess && guess.y_m < this.at.y ? -r - 9 : r + 17);
+    const robust = guess && (this.view.plan.robust_placement ?? guess);
+    const isNear = (spot) => Math.hypot(spot.x_m - this.at.x, spot.y_m - this.at.y) * this.box.k < 2 * r + 24;
+    this.target.classList.toggle("close", Boolean(this.at && guess && (isNear(guess) || isNear(robust))));
     this.target.setAttribute("aria-label", this.at
       ? `${target.label}, ${shapeWords(target)}, ${(this.at.x * 100).toFixed(1)} centimetres from the left and ${(this.at.y * 100).toFixed(1)} from the robot's edge${blocked ? `; not possible: ${blocked}` : ""}`
       : `${target.label}, ${shapeWords(target)}, beside the table. Arrow keys put it on the table and move it by 5 millimetres, with Shift by 2 centimetres; Enter answers.`);

@@ -51,11 +51,7 @@ impl Access {
     /// Rules for a page at an address and port; without a token of its own it gets a random one of 128 bits.
     pub fn new(token: Option<&str>, bind: IpAddr, port: u16, allowed_hosts: &[String]) -> Result<Self, AccessError> {
         let token = match token {
-            None => {
-                let mut bytes = [0_u8; 16];
-                getrandom::fill(&mut bytes).map_err(|error| AccessError::Random(error.to_string()))?;
-                bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-            }
+            None => random_token()?,
             Some(token) if !(MIN_TOKEN..=MAX_TOKEN).contains(&token.len()) => {
                 return Err(AccessError::TokenLength { got: token.len() });
             }
@@ -128,6 +124,13 @@ impl Access {
             query.is_some_and(|q| pair(q, '&', "token")) || cookies.is_some_and(|c| pair(c, ';', &self.cookie));
         if good { Ok(()) } else { Err(AccessError::Token) }
     }
+}
+
+/// 128 random bits, hex.
+pub(crate) fn random_token() -> Result<String, AccessError> {
+    let mut bytes = [0_u8; 16];
+    getrandom::fill(&mut bytes).map_err(|error| AccessError::Random(error.to_string()))?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
 impl std::fmt::Debug for Access {

@@ -1,6 +1,6 @@
 //! The node on the graph and on the web.
 
-use crate::access::Access;
+use crate::access::{Access, random_token};
 use crate::hub::Hub;
 use crate::server::{Limits, Server};
 use crate::{Event, OperatorUi, Output, Settings};
@@ -21,7 +21,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let settings: Settings = arguments.settings()?;
     let listener = listen(&settings)?;
     let address = listener.local_addr().map_err(|error| start(&error))?;
-    let token = read_token(&settings.token_file)?;
+    let token = token_of(&settings.token_file)?;
     let access = Access::new(token.as_deref(), address.ip(), address.port(), &settings.allowed_hosts)
         .map_err(|error| start(&error))?;
     let url = format!("http://{}/?{}", shown(address), access.query());
@@ -102,15 +102,27 @@ fn shown(address: SocketAddr) -> SocketAddr {
     SocketAddr::new(ip, address.port())
 }
 
-fn read_token(path: &str) -> Result<Option<String>, NodeError> {
+/// The token in a file, which is made with a random one where there is none: the page then outlives a restart.
+fn token_of(path: &str) -> Result<Option<String>, NodeError> {
     if path.is_empty() {
         return Ok(None);
     }
-    let mut text = String::new();
-    File::open(path)
-        .and_then(|file| file.take(MAX_TOKEN_FILE).read_to_string(&mut text))
-        .map_err(|error| NodeError::Start(format!("token_file '{path}' cannot be read: {error}")))?;
-    Ok(Some(text.trim().to_owned()))
+    let failed = |what: &str, error: &dyn std::fmt::Display| {
+        NodeError::Start(format!("token_file '{path}' cannot be {what}: {error}"))
+    };
+    match File::open(path) {
+        Ok(file) => {
+            let mut text = String::new();
+            file.take(MAX_TOKEN_FILE).read_to_string(&mut text).map_err(|error| failed("read", &error))?;
+            Ok(Some(text.trim().to_owned()))
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let token = random_token().map_err(|error| start(&error))?;
+            write_privately(Path::new(path), &token).map_err(|error| failed("written", &error))?;
+            Ok(Some(token))
+        }
+        Err(error) => Err(failed("read", &error)),
+    }
 }
 
 /// Says where the page is. Not through the log: that goes onto the graph and into bags, and the address is a secret.

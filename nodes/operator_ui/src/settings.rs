@@ -12,7 +12,7 @@ pub struct Settings {
     pub bind: String,
     /// Port to listen on; 0 takes any free one.
     pub port: i64,
-    /// File holding the token; empty for a new random one at every start.
+    /// File holding the token, made with a random one where there is none; empty for a new one at every start.
     pub token_file: String,
     /// File the page's address is written to, token included; empty for none.
     pub url_file: String,
@@ -60,7 +60,8 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "token_file",
-            about: "file holding the page's token, 16 characters or more; empty: a new random token at every start",
+            about: "file holding the page's token, 16 characters or more, made with a random one if missing; empty: a new \
+                    token at every start",
             range: Range::Any,
         },
         ParameterSpec {

@@ -230,6 +230,39 @@ fn others_are_let_in_only_with_a_good_token_file() {
 }
 
 #[test]
+fn a_token_file_that_is_missing_is_made_and_kept() {
+    let folder = std::env::temp_dir().join(format!("operator_ui_kept_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("it can be made");
+    let (token, url) = (folder.join("token"), folder.join("url"));
+    let urls: Vec<String> = (0..2)
+        .map(|_| {
+            let memory = MemoryGraph::new();
+            let graph = Graph::Memory(memory.clone());
+            let files = [format!("token_file:={}", token.display()), format!("url_file:={}", url.display())];
+            let given = arguments(&[&["port:=0".to_owned()], &files[..]].concat());
+            let node = std::thread::spawn(move || operator_ui::run(&graph, &given));
+            let text = wait_for(&url);
+            memory.shutdown();
+            node.join().expect("it does not panic").expect("it ends well");
+            std::fs::remove_file(&url).expect("it was written");
+            text.split_once('?').expect("it has a token").1.to_owned()
+        })
+        .collect();
+    assert_eq!(urls[0], urls[1]);
+    assert_eq!(format!("token={}", std::fs::read_to_string(&token).expect("it was made")), urls[0]);
+    std::fs::remove_dir_all(&folder).expect("it can be removed");
+}
+
+/// What a file holds once it is there.
+fn wait_for(file: &std::path::Path) -> String {
+    let look = |_| {
+        std::thread::sleep(Duration::from_millis(20));
+        std::fs::read_to_string(file).ok()
+    };
+    (0..200).find_map(look).expect("the file is written")
+}
+
+#[test]
 fn the_node_serves_its_page_at_the_address_in_the_file_until_the_graph_ends() {
     let folder = std::env::temp_dir().join(format!("operator_ui_url_{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("it can be made");
@@ -238,12 +271,7 @@ fn the_node_serves_its_page_at_the_address_in_the_file_until_the_graph_ends() {
     let graph = Graph::Memory(memory.clone());
     let given = arguments(&["port:=0".into(), format!("url_file:={}", file.display())]);
     let node = std::thread::spawn(move || operator_ui::run(&graph, &given));
-    let url = (0..200)
-        .find_map(|_| {
-            std::thread::sleep(Duration::from_millis(20));
-            std::fs::read_to_string(&file).ok()
-        })
-        .expect("the address is written");
+    let url = wait_for(&file);
     let rest = url.trim().strip_prefix("http://").expect("it is an address");
     let (address, target) = rest.split_once('/').expect("it has a path");
     let mut stream = TcpStream::connect(address).expect("it listens");
