@@ -1,7 +1,9 @@
 //! What `apprentice bag info` says, as a table or as JSON.
 
+use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 
+use bag::MetadataRecord;
 use serde::Serialize;
 
 use crate::{OpenBag, utc_text};
@@ -43,7 +45,7 @@ pub struct BagInfo {
     /// Names of the attachments.
     pub attachments: Vec<String>,
     /// Metadata records: name, then entries.
-    pub metadata: Vec<(String, std::collections::BTreeMap<String, String>)>,
+    pub metadata: Vec<(String, BTreeMap<String, String>)>,
     /// What is wrong, one line each.
     pub damage: Vec<String>,
 }
@@ -76,11 +78,7 @@ impl BagInfo {
             message_count: bag.metadata.message_count,
             topics: topics.collect(),
             attachments: attachments.into_iter().map(|attachment| attachment.name).collect(),
-            metadata: bag
-                .files
-                .iter()
-                .flat_map(|file| file.metadata.iter().map(|record| (record.name.clone(), record.values.clone())))
-                .collect(),
+            metadata: distinct(bag.files.iter().flat_map(|file| &file.metadata)),
             damage,
         }
     }
@@ -89,6 +87,27 @@ impl BagInfo {
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("strings and numbers always serialize")
     }
+}
+
+/// The records without repetitions: every file of a split bag starts with the same ones.
+fn distinct<'a>(records: impl Iterator<Item = &'a MetadataRecord>) -> Vec<(String, BTreeMap<String, String>)> {
+    let mut distinct = Vec::new();
+    for record in records.map(|record| (record.name.clone(), record.values.clone())) {
+        if !distinct.contains(&record) {
+            distinct.push(record);
+        }
+    }
+    distinct
+}
+
+/// Text from a bag for a terminal: without control characters, and not longer than a line.
+fn plain(text: &str) -> String {
+    const MAX_CHARS: usize = 100;
+    let mut plain: String = text.chars().take(MAX_CHARS).flat_map(char::escape_debug).collect();
+    if text.chars().nth(MAX_CHARS).is_some() {
+        plain.push('…');
+    }
+    plain
 }
 
 impl Display for BagInfo {
@@ -106,18 +125,20 @@ impl Display for BagInfo {
         let width = |of: fn(&TopicInfo) -> &str| self.topics.iter().map(|topic| of(topic).len()).max().unwrap_or(0);
         let (names, types) = (width(|topic| &topic.name), width(|topic| &topic.type_name));
         for topic in &self.topics {
-            let (name, type_name, count) = (&topic.name, &topic.type_name, topic.message_count);
-            writeln!(f, "topic     {name:names$}  {type_name:types$}  {count:>8}  {}", topic.qos.join("; "))?;
+            let (name, type_name, count) = (plain(&topic.name), plain(&topic.type_name), topic.message_count);
+            let qos = topic.qos.join("; ");
+            writeln!(f, "{}", format!("topic     {name:names$}  {type_name:types$}  {count:>8}  {qos}").trim_end())?;
         }
         for attachment in &self.attachments {
-            writeln!(f, "attached  {attachment}")?;
+            writeln!(f, "attached  {}", plain(attachment))?;
         }
         for (name, entries) in &self.metadata {
-            let entries: Vec<_> = entries.iter().map(|(key, value)| format!("{key}={value}")).collect();
-            writeln!(f, "metadata  {name}: {}", entries.join(", "))?;
+            let entries: Vec<_> =
+                entries.iter().map(|(key, value)| format!("{}={}", plain(key), plain(value))).collect();
+            writeln!(f, "metadata  {}: {}", plain(name), entries.join(", "))?;
         }
         for damage in &self.damage {
-            writeln!(f, "DAMAGED   {damage}")?;
+            writeln!(f, "WARNING   {damage}")?;
         }
         Ok(())
     }

@@ -117,6 +117,18 @@ fn the_description_is_a_table_and_json_of_the_same() {
 }
 
 #[test]
+fn a_hostile_name_cannot_write_to_the_terminal() {
+    let root = tempfile::tempdir().expect("a temporary folder");
+    let topic = Topic::ros2("/x\u{1b}[2J\ny", "a/msg/B", "", &[]);
+    let mut writer = BagWriter::new(Vec::new(), &WriterOptions::default()).expect("a vector takes everything");
+    writer.add_topic(&topic).expect("it fits");
+    let path = root.path().join("x.mcap");
+    fs::write(&path, writer.finish().expect("a vector takes everything").0).expect("the folder is writable");
+    let table = BagInfo::of(&open_bag(&path).expect("it is a bag")).to_string();
+    assert!(table.contains("/x\\u{1b}[2J\\ny") && !table.contains('\u{1b}'), "{table}");
+}
+
+#[test]
 fn what_is_no_bag_is_refused_with_the_reason() {
     let root = tempfile::tempdir().expect("a temporary folder");
     let missing = root.path().join("nowhere");

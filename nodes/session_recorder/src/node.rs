@@ -127,7 +127,7 @@ impl RecorderNode {
         let schema = self.definitions.schema(&found.type_name).unwrap_or_else(|error| {
             if self.unknown_types.insert(found.type_name.clone()) {
                 outputs.push(Output::Warn(format!(
-                    "{}: its type is recorded without explanation, as {error}; set message_definition_path",
+                    "{} is recorded without a schema: {error}; message_definition_path can name folders with definitions",
                     found.name
                 )));
             }

@@ -52,6 +52,9 @@ pub enum TapeError {
     },
 }
 
+/// Name of a finished file, and what is in it.
+type Finished = (String, Contents);
+
 /// The file that is being written.
 struct Current {
     name: String,
@@ -68,7 +71,7 @@ pub struct Tape {
     /// Every topic described, so that each file describes those it holds.
     topics: BTreeMap<String, Topic>,
     /// Files that are finished, with what is in them.
-    finished: Vec<(String, Contents)>,
+    finished: Vec<Finished>,
     /// Bytes of the files this tape has finished.
     finished_bytes: u64,
     next_index: u64,
@@ -200,7 +203,7 @@ impl Current {
 }
 
 /// Finishes what an earlier recorder left in the folder; gives its files and what was done to them.
-fn take_over(folder: &Path) -> Result<(Vec<(String, Contents)>, Vec<String>), TapeError> {
+fn take_over(folder: &Path) -> Result<(Vec<Finished>, Vec<String>), TapeError> {
     let paths = list_files(folder)?;
     if paths.is_empty() {
         return Ok((Vec::new(), Vec::new()));
@@ -255,7 +258,7 @@ fn begin_file(settings: &TapeSettings, index: u64) -> Result<Current, TapeError>
     Ok(Current { name, path, writer, file: kept, ids: BTreeMap::new() })
 }
 
-fn finish_file(mut current: Current, keepsakes: &Keepsakes) -> Result<(String, Contents), TapeError> {
+fn finish_file(mut current: Current, keepsakes: &Keepsakes) -> Result<Finished, TapeError> {
     let failed = || write_error(&current.path);
     let nodes = keepsakes.metadata();
     if !nodes.values.is_empty() {

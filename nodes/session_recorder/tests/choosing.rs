@@ -112,13 +112,13 @@ fn times_a_message_lacks_are_filled_in() {
     let now = Time { sec: 9, nanosec: 1 };
     let write = |received: Time, source_timestamp| {
         let message = RawMessage { received, source_timestamp, cdr: vec![0, 1, 0, 0] };
-        match node().step(now.clone(), Event::Message { topic: "/a".to_owned(), message }).remove(0) {
+        match node().step(now, Event::Message { topic: "/a".to_owned(), message }).remove(0) {
             Output::Write { log_time, publish_time, .. } => (log_time, publish_time),
             other => panic!("got {other:?}"),
         }
     };
     let received = Time { sec: 3, nanosec: 5 };
-    assert_eq!(write(received.clone(), Some(Time { sec: 2, nanosec: 0 })), (3_000_000_005, 2_000_000_000));
+    assert_eq!(write(received, Some(Time { sec: 2, nanosec: 0 })), (3_000_000_005, 2_000_000_000));
     assert_eq!(write(received, None), (3_000_000_005, 3_000_000_005));
     assert_eq!(write(Time::default(), None), (9_000_000_001, 9_000_000_001));
 }
