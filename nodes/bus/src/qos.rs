@@ -78,7 +78,8 @@ pub enum Qos {
     Stream,
     /// Things that happen: reliable, volatile, depth 1000.
     Event,
-    /// The latest state: reliable, transient local, depth 1.
+    /// The latest state: reliable, transient local, depth 1. Over DDS a late joiner may get a few older samples
+    /// (of the last six seconds) before the newest one.
     State,
     /// A log for late joiners: reliable, transient local, depth 1000.
     Log,
