@@ -1,4 +1,5 @@
 //! One configuration: where its links are, and whether they touch anything.
+#![allow(missing_docs, reason = "criterion writes functions of its own")]
 
 use arm::{Chain, CollisionModel, Exclusions, Isometry3, Obstacle, Placed, Robot, Solid, World};
 use criterion::{Criterion, criterion_group, criterion_main};

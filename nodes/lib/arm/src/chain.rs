@@ -15,7 +15,9 @@ pub struct Chain {
     pub entries: Vec<usize>,
     /// Joints that move on the way from the root to the tool: (joint, position in `entries`, factor on its speed).
     pub(crate) moves: Vec<(usize, usize, f64)>,
-    /// No point of the tool's origin is farther from the first moving joint than this, metres.
+    /// For each entry, how far the tool's origin moves at most, metres per radian or per metre.
+    pub levers: Vec<f64>,
+    /// The tool's origin is never farther from the first moving joint than this, metres.
     pub(crate) reach: f64,
 }
 
@@ -63,6 +65,7 @@ impl Chain {
         let mut entries: Vec<usize> = Vec::new();
         let mut moves = Vec::new();
         let mut reach = 0.0;
+        let mut reach_before = Vec::new();
         for j in path {
             let joint = &robot.joints[j];
             let (entry, factor) = match joint.drive {
@@ -84,6 +87,7 @@ impl Chain {
                 entries.len() - 1
             });
             moves.push((j, place, factor));
+            reach_before.push(reach);
         }
         if moves.is_empty() {
             return Err(ChainError::Rigid { name: tool.into() });
@@ -91,7 +95,12 @@ impl Chain {
         if entries.len() > MAX_CHAIN_JOINTS {
             return Err(ChainError::TooLong { name: tool.into(), got: entries.len() });
         }
-        Ok(Self { tool: link, entries, moves, reach })
+        let mut levers = vec![0.0; entries.len()];
+        for (&(j, place, factor), before) in moves.iter().zip(&reach_before) {
+            let slides = robot.joints[j].kind == JointKind::Prismatic;
+            levers[place] += factor.abs() * if slides { 1.0 } else { reach - before };
+        }
+        Ok(Self { tool: link, entries, levers, moves, reach })
     }
 
     /// Names of its joints.

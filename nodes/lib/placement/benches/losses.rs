@@ -1,4 +1,5 @@
 //! 4,000 draws in 50 scenes, each the flowers table with one object moved.
+#![allow(missing_docs, reason = "criterion writes functions of its own")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use placement::{LossBatch, placement_losses};

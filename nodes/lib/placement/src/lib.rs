@@ -3,12 +3,26 @@
 //! Everything here is a function of its arguments: no clock, files or global generator, and the same bits for any number
 //! of threads. Names that end in `_m` are metres in the table's frame, others normalised coordinates.
 
+mod access;
+mod choice;
 mod climb;
 mod hill;
 mod losses;
+mod manipulator;
+mod motion;
+mod plan;
+mod reach;
 mod region;
+mod rrt;
+mod settings;
 mod tabulated;
 mod tail;
+mod trajectory;
 
 pub use losses::{LossBatch, SceneLosses, placement_losses, placement_optima};
+pub use manipulator::{Manipulator, ManipulatorError};
+pub use plan::{CellState, MAP_SIDE, PlacementPlan, PlanOutcome, Planner};
+pub use reach::ReachMap;
+pub use settings::MotionSettings;
 pub use tail::cvar;
+pub use trajectory::{Trajectory, TrajectoryPoint};

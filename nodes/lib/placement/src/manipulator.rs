@@ -1,0 +1,171 @@
+//! An arm as this crate uses it: a robot, the chain to its tool, and how it holds the target over a table.
+
+use crate::MotionSettings;
+use arm::{
+    AxisGoal, Chain, ChainError, CollisionModel, Exclusions, IkOutcome, IkSettings, Isometry3, Obstacle, Placed,
+    Point3, Robot, Solid, Translation3, UrdfError, Vector3, World, about_z, solve,
+};
+use scene::{Object, Point, Scene, Shape};
+use thiserror::Error;
+
+/// Thickness of the slab that stands for the table, metres.
+const SLAB_M: f64 = 0.04;
+
+/// Why an arm cannot be used.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ManipulatorError {
+    /// The description is wrong.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// The tool link cannot be moved.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
+}
+
+/// A robot arm with a tool.
+#[derive(Debug, Clone)]
+pub struct Manipulator {
+    pub(crate) robot: Robot,
+    pub(crate) chain: Chain,
+    pub(crate) model: CollisionModel,
+    hand: Vec<bool>,
+    pub(crate) settings: MotionSettings,
+}
+
+/// An arm at a table, with the target in its hand.
+pub(crate) struct Cell<'a> {
+    pub manipulator: &'a Manipulator,
+    pub world: World,
+    root_from_table: Isometry3<f64>,
+    grip_height_m: f64,
+}
+
+impl Manipulator {
+    /// Reads an arm from a URDF.
+    ///
+    /// # Errors
+    /// A description that is wrong, or a tool link that is not there or does not move.
+    pub fn from_urdf(text: &str, settings: MotionSettings) -> Result<Self, ManipulatorError> {
+        let robot = Robot::from_urdf(text)?;
+        let chain = Chain::new(&robot, &settings.tool_link)?;
+        let model = CollisionModel::new(&robot, &Exclusions::derived(&robot, settings.seed));
+        let hand = chain.hand(&robot);
+        Ok(Self { robot, chain, model, hand, settings })
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// Names of the joints that move the tool, in the order of a trajectory.
+    pub fn joint_names(&self) -> Vec<String> {
+        self.chain.joint_names(&self.robot).map(String::from).collect()
+    }
+
+    /// A configuration of the whole robot from named positions, clamped to limits: what is not named, or not finite,
+    /// rests. Names that are none of the robot's are ignored.
+    pub fn configuration(&self, joints: &[(String, f64)]) -> Vec<f64> {
+        let mut q = self.robot.rest();
+        for (i, q) in q.iter_mut().enumerate() {
+            let joint = self.robot.driven_joint(i);
+            let named = joints.iter().find(|(name, position)| *name == joint.name && position.is_finite());
+            if let Some((_, position)) = named {
+                *q = position.clamp(joint.limits.lower, joint.limits.upper);
+            }
+        }
+        q
+    }
+
+    /// The arm at the table of a scene with the target in hand, `None` when no link of the robot is the scene's frame or
+    /// that link moves. Objects are left out unless `with_objects`.
+    pub(crate) fn at_table(&self, scene: &Scene, with_objects: bool) -> Option<Cell<'_>> {
+        let root_from_table = self.robot.fixed_pose(self.robot.link_index(&scene.frame)?)?;
+        let mut world = World::new();
+        let half_extents = [0.5 * scene.width_m, 0.5 * scene.depth_m, 0.5 * SLAB_M];
+        let middle = Translation3::new(half_extents[0], half_extents[1], -half_extents[2]);
+        world.add(Obstacle {
+            name: "table".into(),
+            solid: Solid::Box { half_extents },
+            root_from_solid: root_from_table * middle,
+        });
+        if with_objects {
+            for object in &scene.objects {
+                let at = Translation3::new(object.position_m.x, object.position_m.y, 0.5 * object.shape.height_m());
+                world.add(Obstacle {
+                    name: object.id.clone(),
+                    solid: solid(object),
+                    root_from_solid: root_from_table * Isometry3::from_parts(at, about_z(object.yaw_rad)),
+                });
+            }
+        }
+        let height = scene.target.shape.height_m();
+        let grip_height_m = height - self.settings.grip_m.min(0.5 * height);
+        // The tool's z axis points down, the target's centre is below the tool.
+        let owner_from_solid = Isometry3::translation(0.0, 0.0, grip_height_m - 0.5 * height);
+        let held = Placed { solid: solid(&scene.target), owner_from_solid };
+        world.hold(&scene.target.id, self.chain.tool, held, self.hand.clone());
+        Some(Cell { manipulator: self, world, root_from_table, grip_height_m })
+    }
+}
+
+impl Cell<'_> {
+    /// Where the tool is when the target's base is `base_m` above the table at a point.
+    pub fn goal(&self, at_m: Point, base_m: f64) -> AxisGoal {
+        let position = self.root_from_table * Point3::new(at_m.x, at_m.y, base_m + self.grip_height_m);
+        AxisGoal { position: position.coords, direction: self.root_from_table.rotation * -Vector3::z_axis() }
+    }
+
+    /// Whether nothing touches in a configuration.
+    pub fn is_free(&self, q: &[f64], poses: &mut Vec<Isometry3<f64>>) -> bool {
+        let Manipulator { robot, model, settings, .. } = self.manipulator;
+        robot.link_poses(q, poses);
+        model.is_free(robot, poses, &self.world, settings.margin_m)
+    }
+
+    /// What touches in a configuration.
+    pub fn contact(&self, q: &[f64]) -> Option<(String, String)> {
+        let Manipulator { robot, model, settings, .. } = self.manipulator;
+        let mut poses = Vec::new();
+        robot.link_poses(q, &mut poses);
+        let contact = model.first_contact(robot, &poses, &self.world, settings.margin_m)?;
+        Some((contact.a.into(), contact.b.into()))
+    }
+
+    /// A configuration that puts the target's base `base_m` above a point and touches nothing, there and a little above;
+    /// `None` when none was found.
+    pub fn place(&self, at_m: Point, base_m: f64, start: &[f64], restarts: usize) -> Option<Vec<f64>> {
+        let Manipulator { robot, chain, settings, .. } = self.manipulator;
+        let ik = IkSettings { restarts, seed: settings.seed, ..IkSettings::default() };
+        let above = IkSettings { restarts: 0, ..ik };
+        let lifted = self.goal(at_m, base_m + crate::settings::LEAST_APPROACH_M);
+        let mut poses = Vec::new();
+        let outcome = solve(robot, chain, &self.goal(at_m, base_m), start, &ik, |q| {
+            let rises = |poses: &mut Vec<_>| match solve(robot, chain, &lifted, q, &above, |_| true) {
+                IkOutcome::Solved(up) => self.is_free(&up, poses),
+                _ => false,
+            };
+            self.is_free(q, &mut poses) && rises(&mut poses)
+        });
+        match outcome {
+            IkOutcome::Solved(q) => Some(q),
+            _ => None,
+        }
+    }
+}
+
+fn solid(object: &Object) -> Solid {
+    match object.shape {
+        Shape::Cylinder { radius_m, height_m } => Solid::Cylinder { radius: radius_m, half_length: 0.5 * height_m },
+        Shape::Box { width_m, depth_m, height_m } => {
+            Solid::Box { half_extents: [0.5 * width_m, 0.5 * depth_m, 0.5 * height_m] }
+        }
+    }
+}
+
+/// Height of the target's base when it is released at a point, metres: above what supports it, if anything does.
+pub(crate) fn base_height_m(scene: &Scene, at_m: Point, release_m: f64) -> f64 {
+    let radius_m = scene.target.shape.bounding_radius_m();
+    let under = scene.objects.iter().filter(|object| object.supports && object.distance_m(at_m) < radius_m);
+    under.map(|object| object.shape.height_m()).fold(0.0, f64::max) + release_m
+}

@@ -1,0 +1,50 @@
+//! How the arm is to move.
+
+/// What a plan may assume of the arm and how careful it is to be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionSettings {
+    /// The link whose origin is between the fingertips and whose z axis points out of the hand.
+    pub tool_link: String,
+    /// Things nearer than this count as touching, metres.
+    pub margin_m: f64,
+    /// Height above what it is put on at which the target is released, metres; more than the margin.
+    pub release_m: f64,
+    /// How far above its place the target is brought before it is lowered, metres, where the arm reaches that high.
+    pub approach_m: f64,
+    /// How far below the target's top the fingers hold it, metres; at most half its height.
+    pub grip_m: f64,
+    /// Share of each joint's velocity limit that is used.
+    pub speed: f64,
+    /// Time from rest to that speed, seconds.
+    pub acceleration_s: f64,
+    /// Time between points of the trajectory, seconds.
+    pub sample_s: f64,
+    /// Samples after which the search for a way around obstacles ends.
+    pub samples: usize,
+    /// Of every random draw.
+    pub seed: u64,
+}
+
+impl Default for MotionSettings {
+    fn default() -> Self {
+        Self {
+            tool_link: "tool0".into(),
+            margin_m: 0.003,
+            release_m: 0.006,
+            approach_m: 0.12,
+            grip_m: 0.03,
+            speed: 0.6,
+            acceleration_s: 0.4,
+            sample_s: 0.05,
+            samples: 600,
+            seed: 1,
+        }
+    }
+}
+
+/// The target is brought at least this far above its place, metres.
+pub(crate) const LEAST_APPROACH_M: f64 = 0.03;
+/// The largest change of a joint between two checks, radians or metres.
+pub(crate) const JOINT_STEP: f64 = 0.02;
+/// The farthest the tool moves between two checks, metres.
+pub(crate) const TOOL_STEP_M: f64 = 0.005;
