@@ -36,12 +36,12 @@ export function drawBoard(layer, table, { heat, shade, movable }) {
   pieces.push(element("text", { class: "small-text", x: x0 + board.w / 2, y: y + 4, "text-anchor": "middle" }, "robot's side"));
   pieces.push(element("text", { class: "small-text", x: x0 + board.w, y: y + 4, "text-anchor": "end" }, `${Math.round(scene.width_m * 100)} × ${Math.round(scene.depth_m * 100)} cm`));
   if (movable && !table.at) {
-    pieces.push(element("rect", { class: "tray", x: tray.x - tray.w / 2, y: tray.y - tray.h / 2, width: tray.w, height: tray.h, rx: 16 }));
+    pieces.push(element("rect", { class: "tray", x: tray.left, y: tray.top, width: tray.w, height: tray.h, rx: 16 }));
     const r = Math.max(boundingRadius(scene.target) * k, 12), below = table.box.beside;
     const words = below ? ["drag it", "onto the", "table"] : ["drag it onto the table"];
     words.forEach((word, i) => pieces.push(element("text", below
       ? { class: "small-text", x: tray.x, y: tray.y + r + 36 + 14 * i, "text-anchor": "middle" }
-      : { class: "small-text", x: tray.x + r + 40, y: tray.y + 4 }, word)));
+      : { class: "small-text", x: tray.x + Math.max(r, 30) + 16, y: tray.y + 12 }, word)));
   }
   layer.replaceChildren(...pieces);
 }

@@ -215,7 +215,7 @@ function renderLegend() {
 }
 
 function renderReadout() {
-  const shown = scene(), at = own.at ?? own.hover, map = plan();
+  const shown = scene(), at = (isTeaching() || showsQuestion() ? own.at : null) ?? own.hover, map = plan();
 
   if (!shown || !at || own.look) return text("readout", own.look ? `An earlier answer: ${fate(own.look)}` : "Brown hatching: occupied. Grey hatching: out of the arm's reach.");
   const where = `${(at.x * 100).toFixed(1)} cm from the left, ${(at.y * 100).toFixed(1)} cm from the robot's edge`;
@@ -247,7 +247,7 @@ function renderAnswer() {
   renderGuess(map, shown, name);
   const sent = state.answers.find((a) => a.id === own.sent || a.undo?.id === own.sent);
   const isUndo = sent && sent.id !== own.sent;
-  const words = !own.sent ? "" : !sent ? "Sending…"
+  const words = !own.sent ? "" : !sent ? (link.outbox.has(own.sent) ? "Sending…" : "")
     : isUndo ? { accepted: `Taken back in revision ${sent.undo.revision}`, refused: `Could not be taken back: ${sent.undo.reason}` }[sent.undo.state] ?? "Taking it back…"
     : { accepted: `Taken in as revision ${sent.revision}`, refused: `Refused: ${sent.reason}`, undone: "" }[sent.state] ?? "On its way to the robot…";
   text("acknowledgement", own.problem ? "" : words, sent ? (isUndo ? sent.undo.revision : sent.revision) : null);
@@ -258,7 +258,7 @@ function renderGuess(map, shown, name) {
   const guess = map?.map_placement;
   let words = "", distance = null;
   if (showsQuestion() || own.correcting) {
-    if (!own.revealed) words = `The robot's guess stays hidden until you have placed the ${name}.`;
+    if (!own.revealed) words = `The robot's guess stays hidden until you place the ${name}.`;
     else if (guess && own.at) {
       distance = Math.hypot(guess.x_m - own.at.x, guess.y_m - own.at.y);
       words = `The robot guessed ${cm(distance)} from yours.`;

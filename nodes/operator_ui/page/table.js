@@ -22,6 +22,8 @@ export class TableView {
     this.target.addEventListener("pointermove", (event) => this.drag(event));
     this.target.addEventListener("pointerup", (event) => this.release(event));
     this.target.addEventListener("pointercancel", (event) => this.release(event));
+    // A page that may scroll takes the drag away, and `touch-action` does not hold on parts of an SVG everywhere.
+    this.target.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
     this.target.addEventListener("keydown", (event) => this.key(event));
     svg.addEventListener("click", (event) => this.tap(event));
     svg.addEventListener("pointermove", (event) => this.hover(event));
@@ -51,8 +53,11 @@ export class TableView {
     const k = Math.max(20, Math.min(inner.w / scene.width_m, inner.h / scene.depth_m));
     const board = { w: k * scene.width_m, h: k * scene.depth_m };
     const x0 = MARGIN.left + Math.max(0, (inner.w - board.w) / 2), y0 = MARGIN.top + Math.max(0, (inner.h - board.h) / 2);
-    const room = beside ? { x: x0 + board.w + 12 + tray / 2, y: y0 + board.h / 2, w: tray - 12, h: 236 } : { x: x0 + board.w / 2, y: y0 + board.h + MARGIN.bottom + tray / 2 - 6, w: Math.min(board.w, 320), h: tray - 12 };
-    return { width, height, k, x0, y0, board, tray: room, beside };
+    const room = beside
+      ? { left: x0 + board.w + 12, top: y0 + board.h / 2 - 118, w: tray - 12, h: 236 }
+      : { left: x0 + board.w / 2 - 130, top: y0 + board.h + MARGIN.bottom, w: 260, h: tray - 12 };
+    const waiting = beside ? { x: room.left + room.w / 2, y: y0 + board.h / 2 } : { x: room.left + 58, y: room.top + room.h / 2 - 8 };
+    return { width, height, k, x0, y0, board, tray: { ...room, ...waiting }, beside };
   }
 
   px(at) { return { x: this.box.x0 + at.x * this.box.k, y: this.box.y0 + this.box.board.h - at.y * this.box.k }; }
