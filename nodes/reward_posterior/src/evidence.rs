@@ -118,10 +118,12 @@ pub(crate) fn id_of(record: &EvidenceRecord) -> &str {
 
 /// A demonstration as the core takes it.
 pub(crate) fn demonstration_from_message(message: &PlacementDemonstration) -> Result<Demonstration, ExchangeError> {
+    let scene = scene_from_message(&message.scene)?;
+    let placement_m = point_from_message("the placement", &message.placement)?;
     Ok(Demonstration {
         id: message.id.clone(),
-        scene: scene_from_message(&message.scene)?,
-        placement_m: point_from_message("the placement", &message.placement)?,
+        placement: scene.normalised(placement_m),
+        scene,
         confidence: match message.confidence {
             PlacementDemonstration::CONFIDENCE_SURE => Confidence::Sure,
             PlacementDemonstration::CONFIDENCE_FAIRLY => Confidence::Fairly,

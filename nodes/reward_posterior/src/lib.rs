@@ -12,4 +12,4 @@ pub use evidence::Evidence;
 pub use journal::{Entry, JournalError, MAGIC, read_journal};
 pub use node::{Event, Output, RewardPosterior, replay_records};
 pub use run::run;
-pub use settings::Settings;
+pub use settings::{Prior, Settings};

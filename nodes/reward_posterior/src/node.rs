@@ -294,7 +294,7 @@ impl RewardPosterior {
         let draws = match self.draws.take() {
             // A skipped question changes nothing that the draws depend on.
             Some((of, draws)) if of == hash => draws,
-            _ => match posterior::sample(names.len(), &demonstrations, &self.settings.sampler()) {
+            _ => match self.sample(&demonstrations) {
                 Ok(draws) => draws,
                 Err(error) => return vec![Output::Warn(format!("no posterior: {error}"))],
             },
@@ -359,30 +359,25 @@ impl RewardPosterior {
     }
 }
 
-/// Feeds a node the records of a log, as they were accepted, and returns the posterior after each.
+/// Feeds a node the task and the records of a log, as they were accepted, and gives the posterior after each: revisions
+/// 0, 1, … in order. An error ends it.
 ///
 /// What a replay does; the rules of acceptance are not applied again, since which question was open is not in the log.
 pub fn replay_records(
     settings: Settings,
     task: TableScene,
     records: &[EvidenceRecord],
-) -> Result<Vec<Posterior>, String> {
+) -> impl Iterator<Item = Result<Posterior, String>> {
     let mut node = RewardPosterior::new(settings);
-    let mut posteriors = Vec::with_capacity(records.len() + 1);
-    let mut take = |node: &mut RewardPosterior, entry: Entry| -> Result<(), String> {
+    let entries = [Entry::Task(Box::new(task))]
+        .into_iter()
+        .chain(records.iter().map(|record| Entry::Record(Box::new(record.clone()))));
+    entries.map(move |entry| {
         node.restore(vec![entry])?;
-        for output in node.recompute() {
-            match output {
-                Output::Posterior(posterior) => posteriors.push(*posterior),
-                Output::Warn(text) => return Err(text),
-                _ => {}
-            }
+        match node.recompute().pop() {
+            Some(Output::Posterior(posterior)) => Ok(*posterior),
+            Some(Output::Warn(text)) => Err(text),
+            _ => Err("it has no posterior".into()),
         }
-        Ok(())
-    };
-    take(&mut node, Entry::Task(Box::new(task)))?;
-    for record in records {
-        take(&mut node, Entry::Record(Box::new(record.clone())))?;
-    }
-    Ok(posteriors)
+    })
 }

@@ -5,7 +5,7 @@ use crate::evidence::{demonstration_from_message, id_of};
 use apprentice_msgs::msg::{EvidenceRecord, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction};
 use apprentice_msgs::std_msgs::Header;
 use exchange::scene_from_message;
-use scene::{Rbf, Scene};
+use scene::{Point, Rbf, Scene};
 
 /// Longer ids are refused.
 const MAX_ID: usize = 128;
@@ -55,8 +55,8 @@ pub(crate) fn demonstration(evidence: &Evidence, open: Open<'_>, message: &Place
         }
         let core = demonstration_from_message(message).map_err(|error| Verdict::Refuse(error.to_string()))?;
         same_features(evidence, &core.scene)?;
-        if let Some(obstruction) = core.scene.occupied().reason(core.placement_m) {
-            let at = core.placement_m;
+        let at = Point::new(message.placement.x, message.placement.y);
+        if let Some(obstruction) = core.scene.occupied().reason(at) {
             return refuse(format!(
                 "the {} cannot be at ({}, {}) m: {obstruction}",
                 core.scene.target.label, at.x, at.y

@@ -1,8 +1,27 @@
 //! Parameters of the node.
 
 use bus::{NodeSettings, ParameterSpec, Range};
-use posterior::Prior;
 use serde::{Deserialize, Serialize};
+
+/// Prior over the weights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Prior {
+    /// Uniform on ‖w‖₁ = 1.
+    L1Sphere,
+    /// Uniform on ‖w‖₂ = 1.
+    L2Sphere,
+}
+
+impl Prior {
+    /// As in parameters and messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::L1Sphere => "l1_sphere",
+            Self::L2Sphere => "l2_sphere",
+        }
+    }
+}
 
 /// Parameters of `reward_posterior`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -22,6 +41,10 @@ pub struct Settings {
     pub n_draws: i64,
     /// Chains.
     pub n_chains: i64,
+    /// Iterations per chain spent on finding step size and scale, not kept.
+    pub warmup: i64,
+    /// Cells per axis of the grid on which the likelihood is normalised.
+    pub grid_side: i64,
     /// Threads; the draws do not depend on it. 0: as many as there are cores.
     pub threads: i64,
     /// File of accepted evidence; empty: none is kept, and a restart begins anew.
@@ -40,6 +63,8 @@ impl Default for Settings {
             prior: Prior::L1Sphere,
             n_draws: 4000,
             n_chains: 4,
+            warmup: 400,
+            grid_side: 64,
             threads: 0,
             journal: String::new(),
             republish_period_s: 10.0,
@@ -79,6 +104,16 @@ impl NodeSettings for Settings {
         },
         ParameterSpec { name: "n_chains", about: "chains", range: Range::Integer { min: 4, max: 64 } },
         ParameterSpec {
+            name: "warmup",
+            about: "iterations per chain spent on finding step size and scale, not kept",
+            range: Range::Integer { min: 100, max: 100_000 },
+        },
+        ParameterSpec {
+            name: "grid_side",
+            about: "cells per axis of the grid on which the likelihood is normalised",
+            range: Range::Integer { min: 16, max: 256 },
+        },
+        ParameterSpec {
             name: "threads",
             about: "threads; 0: as many as there are cores. The draws do not depend on it",
             range: Range::Integer { min: 0, max: 1024 },
@@ -105,5 +140,26 @@ impl NodeSettings for Settings {
 
     fn seed(&self) -> u64 {
         self.seed.unsigned_abs()
+    }
+}
+
+impl Settings {
+    /// The sampler's part of the parameters.
+    pub(crate) fn sampler(&self) -> posterior::Settings {
+        let count = |n: i64| usize::try_from(n).unwrap_or(0);
+        let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        posterior::Settings {
+            beta: self.beta,
+            prior: match self.prior {
+                Prior::L1Sphere => posterior::Prior::L1Sphere,
+                Prior::L2Sphere => posterior::Prior::L2Sphere,
+            },
+            n_draws: count(self.n_draws),
+            n_chains: count(self.n_chains),
+            warmup: count(self.warmup),
+            threads: if self.threads > 0 { count(self.threads) } else { cores() },
+            grid_side: count(self.grid_side),
+            confidence_factors: [1.0, self.fairly_factor, self.guess_factor],
+        }
     }
 }

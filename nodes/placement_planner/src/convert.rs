@@ -1,0 +1,82 @@
+//! Between messages and the planner's types.
+
+use apprentice_msgs::builtin_interfaces::Duration;
+use apprentice_msgs::geometry_msgs::Point as PointMessage;
+use apprentice_msgs::msg::{PlacementPlan as PlanMessage, Posterior};
+use apprentice_msgs::sensor_msgs::JointState;
+use apprentice_msgs::std_msgs::Header;
+use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
+use exchange::point_to_message;
+use placement::{CellState, PlanOutcome, Trajectory};
+use scene::Point;
+
+/// More joints than this are not taken from one message.
+const MAX_JOINTS: usize = 1000;
+
+/// Joint names and positions that can be used; nameless, repeated or infinite ones are an error in words.
+pub(crate) fn joints(message: &JointState) -> Result<Vec<(String, f64)>, String> {
+    if message.name.len() != message.position.len() {
+        return Err(format!("{} joint names but {} positions", message.name.len(), message.position.len()));
+    }
+    if message.name.len() > MAX_JOINTS {
+        return Err(format!("{} joints; at most {MAX_JOINTS} are supported", message.name.len()));
+    }
+    match message.name.iter().zip(&message.position).find(|(_, position)| !position.is_finite()) {
+        Some((name, position)) => Err(format!("joint '{name}' is at {position}; a finite position is needed")),
+        None => Ok(message.name.iter().cloned().zip(message.position.iter().copied()).collect()),
+    }
+}
+
+/// The joints of a message that the robot has, in the robot's order and without stamp: what a plan depends on.
+pub(crate) fn start(names: &[String], joints: &[(String, f64)]) -> JointState {
+    let known = names.iter().filter_map(|name| joints.iter().find(|(joint, _)| joint == name));
+    let (name, position) = known.cloned().unzip();
+    JointState { name, position, ..JointState::default() }
+}
+
+/// The shape of a posterior, before anything is computed from it.
+pub(crate) fn check(posterior: &Posterior) -> Result<(), String> {
+    let k = posterior.feature_names.len();
+    let max = scene::MAX_OBJECTS + scene::FIXED_CENTRES.len();
+    if k == 0 || k > max || posterior.map_weights.len() != k {
+        return Err(format!("it has {k} features and {} MAP weights", posterior.map_weights.len()));
+    }
+    if posterior.draws.len() != posterior.n_draws as usize * k {
+        return Err(format!("{} numbers are not {} draws of {k} weights", posterior.draws.len(), posterior.n_draws));
+    }
+    let finite = posterior.draws.iter().all(|w| w.is_finite()) && posterior.map_weights.iter().all(|w| w.is_finite());
+    if finite { Ok(()) } else { Err("it holds weights that are not finite".into()) }
+}
+
+pub(crate) fn outcome(outcome: PlanOutcome) -> u8 {
+    match outcome {
+        PlanOutcome::Planned => PlanMessage::PLANNED,
+        PlanOutcome::NoFreePlace => PlanMessage::NO_FREE_PLACE,
+        PlanOutcome::Unreachable => PlanMessage::UNREACHABLE,
+        PlanOutcome::NoPath => PlanMessage::NO_PATH,
+        PlanOutcome::NoRobot => PlanMessage::NO_ROBOT,
+    }
+}
+
+pub(crate) fn cell(state: CellState) -> u8 {
+    match state {
+        CellState::Free => PlanMessage::CELL_FREE,
+        CellState::Occupied => PlanMessage::CELL_OCCUPIED,
+        CellState::Unreachable => PlanMessage::CELL_UNREACHABLE,
+    }
+}
+
+/// A place that may be missing: not numbers then.
+pub(crate) fn place(at_m: Option<Point>) -> PointMessage {
+    at_m.map_or(PointMessage { x: f64::NAN, y: f64::NAN, z: 0.0 }, point_to_message)
+}
+
+pub(crate) fn trajectory(header: &Header, trajectory: Trajectory) -> JointTrajectory {
+    let points = trajectory.points.into_iter().map(|point| JointTrajectoryPoint {
+        positions: point.positions,
+        velocities: point.velocities,
+        time_from_start: Duration::from_seconds(point.time_from_start_s),
+        ..JointTrajectoryPoint::default()
+    });
+    JointTrajectory { header: header.clone(), joint_names: trajectory.joint_names, points: points.collect() }
+}

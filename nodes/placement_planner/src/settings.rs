@@ -1,0 +1,133 @@
+//! Parameters of the node.
+
+use bus::{NodeSettings, ParameterSpec, Range};
+use placement::MotionSettings;
+use serde::{Deserialize, Serialize};
+
+/// Parameters of `placement_planner`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Seed of the search for motions.
+    pub seed: i64,
+    /// The robust placement minimises the CVaR at this level of the distance to the person's placement.
+    pub alpha: f64,
+    /// Threads; plans do not depend on it. 0: as many as there are cores.
+    pub threads: i64,
+    /// The link between the fingertips, whose z axis points out of the hand.
+    pub tool_link: String,
+    /// Things nearer than this count as touching, metres.
+    pub margin_m: f64,
+    /// How far above its place the target is brought before it is lowered, metres.
+    pub approach_m: f64,
+    /// Share of each joint's velocity limit that is used.
+    pub speed: f64,
+    /// Whether a taught robot moves: the plan's trajectory goes out on `/joint_trajectory`.
+    pub execute: bool,
+    /// How often the newest guess and plan are sent again, seconds.
+    pub republish_period_s: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        let motion = MotionSettings::default();
+        Self {
+            seed: 1,
+            alpha: 0.95,
+            threads: 0,
+            tool_link: motion.tool_link,
+            margin_m: motion.margin_m,
+            approach_m: motion.approach_m,
+            speed: motion.speed,
+            execute: true,
+            republish_period_s: 2.0,
+        }
+    }
+}
+
+impl NodeSettings for Settings {
+    const NODE: &'static str = "placement_planner";
+    const ABOUT: &'static str = "Plans where to put the target and how the arm gets it there, free of collisions";
+    const PARAMETERS: &'static [ParameterSpec] = &[
+        ParameterSpec {
+            name: "seed",
+            about: "seed of the search for motions",
+            range: Range::Integer { min: 0, max: i64::MAX },
+        },
+        ParameterSpec {
+            name: "alpha",
+            about: "the robust placement has the smallest CVaR at this level of the distance to the person's placement",
+            range: Range::Float { min: 0.5, max: 0.999 },
+        },
+        ParameterSpec {
+            name: "threads",
+            about: "threads; 0: as many as there are cores. Plans do not depend on it",
+            range: Range::Integer { min: 0, max: 1024 },
+        },
+        ParameterSpec {
+            name: "tool_link",
+            about: "link between the fingertips, whose z axis points out of the hand",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "margin_m",
+            about: "things nearer than this count as touching, metres",
+            range: Range::Float { min: 0.0, max: 0.1 },
+        },
+        ParameterSpec {
+            name: "approach_m",
+            about: "how far above its place the target is brought before it is lowered, metres",
+            range: Range::Float { min: 0.03, max: 1.0 },
+        },
+        ParameterSpec {
+            name: "speed",
+            about: "share of each joint's velocity limit that is used",
+            range: Range::Float { min: 0.01, max: 1.0 },
+        },
+        ParameterSpec {
+            name: "execute",
+            about: "whether a taught robot moves: the trajectory goes out on /joint_trajectory",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "republish_period_s",
+            about: "how often the newest guess and plan are sent again, seconds",
+            range: Range::Float { min: 0.1, max: 3600.0 },
+        },
+    ];
+
+    fn check(&self) -> Result<(), String> {
+        let fine = (1..=128).contains(&self.tool_link.len());
+        if fine {
+            Ok(())
+        } else {
+            Err(format!("tool_link has {} characters; 1 to 128 are allowed", self.tool_link.len()))
+        }
+    }
+
+    fn seed(&self) -> u64 {
+        self.seed.unsigned_abs()
+    }
+}
+
+impl Settings {
+    /// The part of the parameters that is about motion.
+    pub(crate) fn motion(&self) -> MotionSettings {
+        MotionSettings {
+            tool_link: self.tool_link.clone(),
+            margin_m: self.margin_m,
+            approach_m: self.approach_m,
+            speed: self.speed,
+            seed: self.seed.unsigned_abs(),
+            ..MotionSettings::default()
+        }
+    }
+
+    /// Threads to plan with.
+    pub(crate) fn n_threads(&self) -> usize {
+        match usize::try_from(self.threads) {
+            Ok(threads) if threads > 0 => threads,
+            _ => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+        }
+    }
+}

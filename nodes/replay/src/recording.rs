@@ -1,0 +1,145 @@
+//! What a bag holds of a session, sorted by what it is.
+
+use crate::ReplayError;
+use apprentice_msgs::msg::{
+    Candidates, EvidenceLog, LessonStatus, NodeSettings, PerformanceBounds, PlacementPlan, PlacementQuery, Posterior,
+};
+use apprentice_msgs::{Message, from_cdr, std_msgs};
+use sha2::{Digest, Sha256};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Every distinct recorded output, by revision. A repetition of the same bytes counts once.
+#[derive(Debug, Clone, Default)]
+pub struct Recording {
+    /// Parameters by node.
+    pub settings: BTreeMap<String, NodeSettings>,
+    /// The longest log of evidence.
+    pub evidence: EvidenceLog,
+    /// Recorded posteriors.
+    pub posterior: Recorded<Posterior>,
+    /// Recorded candidates.
+    pub candidates: Recorded<Candidates>,
+    /// Recorded bounds.
+    pub bounds: Recorded<PerformanceBounds>,
+    /// Recorded questions.
+    pub query: Recorded<PlacementQuery>,
+    /// Recorded states of the lesson.
+    pub lesson: Recorded<LessonStatus>,
+    /// Recorded plans and guesses.
+    pub plan: Recorded<PlacementPlan>,
+    /// Robot descriptions by the SHA-256 of their text, hex.
+    pub robots: BTreeMap<String, String>,
+}
+
+/// Recorded messages of one type: revision → distinct messages with their bytes, in recorded order.
+pub type Recorded<M> = BTreeMap<u64, Vec<(M, Vec<u8>)>>;
+
+impl Recording {
+    /// Sorts the messages of a bag: (topic, type, CDR with header).
+    ///
+    /// With `namespace` only topics in it count, else there must be one with evidence.
+    pub fn collect<'a>(
+        messages: impl IntoIterator<Item = (&'a str, &'a str, &'a [u8])>,
+        namespace: Option<&str>,
+    ) -> Result<Self, ReplayError> {
+        let mut all: BTreeMap<String, Self> = BTreeMap::new();
+        let mut robots = BTreeMap::new();
+        for (index, (topic, type_name, cdr)) in messages.into_iter().enumerate() {
+            if type_name == std_msgs::String::TYPE && topic.ends_with("/robot_description") {
+                let text = decode::<std_msgs::String>(topic, index, cdr)?.data;
+                let hash = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+                robots.insert(hash, text);
+                continue;
+            }
+            if !type_name.starts_with("apprentice_msgs/msg/") {
+                continue;
+            }
+            let of = topic.rsplit_once('/').map_or("", |(namespace, _)| namespace);
+            if namespace.is_none_or(|wanted| wanted.trim_end_matches('/') == of) {
+                let one = all.entry(of.to_owned()).or_default();
+                one.take(topic, type_name, index, cdr)?;
+            }
+        }
+        let with_evidence: BTreeSet<String> =
+            all.iter().filter(|(_, one)| one.evidence != EvidenceLog::default()).map(|(of, _)| of.clone()).collect();
+        match with_evidence.len() {
+            0 => Err(ReplayError::NoEvidence(EvidenceLog::TYPE)),
+            1 => {
+                let of = with_evidence.iter().next().expect("there is one");
+                let mut one = all.remove(of).expect("it was found there");
+                one.robots = robots;
+                Ok(one)
+            }
+            _ => Err(ReplayError::SeveralSessions(with_evidence.into_iter().collect())),
+        }
+    }
+
+    fn take(&mut self, topic: &str, type_name: &str, index: usize, cdr: &[u8]) -> Result<(), ReplayError> {
+        match type_name {
+            Posterior::TYPE => insert(&mut self.posterior, topic, index, cdr, |m| m.revision),
+            Candidates::TYPE => insert(&mut self.candidates, topic, index, cdr, |m| m.revision),
+            PerformanceBounds::TYPE => insert(&mut self.bounds, topic, index, cdr, |m| m.revision),
+            PlacementQuery::TYPE => insert(&mut self.query, topic, index, cdr, |m| m.revision),
+            LessonStatus::TYPE => insert(&mut self.lesson, topic, index, cdr, |m| m.revision),
+            PlacementPlan::TYPE => insert(&mut self.plan, topic, index, cdr, |m| m.revision),
+            EvidenceLog::TYPE => self.evidence(decode(topic, index, cdr)?),
+            NodeSettings::TYPE => self.setting(decode(topic, index, cdr)?),
+            _ => Ok(()),
+        }
+    }
+
+    fn evidence(&mut self, log: EvidenceLog) -> Result<(), ReplayError> {
+        let mut before = 0;
+        for record in &log.records {
+            if record.sequence != before + 1 {
+                return Err(ReplayError::Gap { before, after: record.sequence });
+            }
+            before = record.sequence;
+        }
+        if self.evidence == EvidenceLog::default() {
+            self.evidence = log;
+            return Ok(());
+        }
+        if log.task != self.evidence.task {
+            return Err(ReplayError::TwoHistories { sequence: 0 });
+        }
+        if let Some((_, theirs)) = self.evidence.records.iter().zip(&log.records).find(|(a, b)| a != b) {
+            return Err(ReplayError::TwoHistories { sequence: theirs.sequence });
+        }
+        if log.records.len() > self.evidence.records.len() {
+            self.evidence = log;
+        }
+        Ok(())
+    }
+
+    fn setting(&mut self, settings: NodeSettings) -> Result<(), ReplayError> {
+        match self.settings.get(&settings.node) {
+            Some(before) if before.parameters != settings.parameters => {
+                Err(ReplayError::TwoSettings { node: settings.node })
+            }
+            _ => {
+                self.settings.insert(settings.node.clone(), settings);
+                Ok(())
+            }
+        }
+    }
+}
+
+fn decode<M: Message>(topic: &str, index: usize, cdr: &[u8]) -> Result<M, ReplayError> {
+    from_cdr(cdr).map_err(|source| ReplayError::Malformed { topic: topic.into(), type_name: M::TYPE, index, source })
+}
+
+fn insert<M: Message>(
+    recorded: &mut Recorded<M>,
+    topic: &str,
+    index: usize,
+    cdr: &[u8],
+    revision: impl Fn(&M) -> u64,
+) -> Result<(), ReplayError> {
+    let message: M = decode(topic, index, cdr)?;
+    let same = recorded.entry(revision(&message)).or_default();
+    if !same.iter().any(|(_, bytes)| bytes == cdr) {
+        same.push((message, cdr.to_vec()));
+    }
+    Ok(())
+}
