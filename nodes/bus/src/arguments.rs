@@ -140,9 +140,8 @@ impl Arguments {
                     expected: expected_value(argument),
                 })?;
                 parsed.option(argument, value)?;
-            } else if let Some((option, value)) = argument
-                .split_once('=')
-                .filter(|(option, _)| option.starts_with("--") && WITH_VALUE.contains(option))
+            } else if let Some((option, value)) =
+                argument.split_once('=').filter(|(option, _)| option.starts_with("--") && WITH_VALUE.contains(option))
             {
                 parsed.option(option, value)?;
             } else {
@@ -206,32 +205,20 @@ impl Arguments {
         let rule = |key: &str| {
             self.remaps
                 .iter()
-                .find(|remap| {
-                    remap.from == key && remap.node.as_deref().is_none_or(|node| node == default)
-                })
+                .find(|remap| remap.from == key && remap.node.as_deref().is_none_or(|node| node == default))
                 .map(|remap| remap.to.as_str())
         };
-        NodeName::new(
-            rule("__node").or(rule("__name")).unwrap_or(default),
-            rule("__ns").unwrap_or(DEFAULT_NAMESPACE),
-        )
+        NodeName::new(rule("__node").or(rule("__name")).unwrap_or(default), rule("__ns").unwrap_or(DEFAULT_NAMESPACE))
     }
 
     /// The absolute name of a topic or service after expansion and renaming; the first rule that fits counts.
     ///
     /// # Errors
     /// When a name is not allowed.
-    pub fn resolve(
-        &self,
-        node: &NodeName,
-        kind: &'static str,
-        name: &str,
-    ) -> Result<String, NameError> {
+    pub fn resolve(&self, node: &NodeName, kind: &'static str, name: &str) -> Result<String, NameError> {
         let expanded = node.expand(kind, name)?;
         for remap in &self.remaps {
-            if remap.from.starts_with("__")
-                || remap.node.as_deref().is_some_and(|wanted| wanted != node.name)
-            {
+            if remap.from.starts_with("__") || remap.node.as_deref().is_some_and(|wanted| wanted != node.name) {
                 continue;
             }
             if node.expand(kind, &remap.from)? == expanded {
@@ -266,11 +253,7 @@ impl Arguments {
         self.levels
             .iter()
             .rev()
-            .find(|(wanted, _)| {
-                wanted
-                    .as_deref()
-                    .is_none_or(|wanted| wanted == logger || wanted == node.name)
-            })
+            .find(|(wanted, _)| wanted.as_deref().is_none_or(|wanted| wanted == logger || wanted == node.name))
             .map(|(_, level)| *level)
     }
 
@@ -292,10 +275,7 @@ fn unknown(argument: &str) -> ArgumentError {
     } else {
         did_you_mean(argument, WITH_VALUE.iter().chain(WITHOUT_VALUE).copied())
     };
-    ArgumentError::Unknown {
-        got: yaml::shorten(argument),
-        suggestion,
-    }
+    ArgumentError::Unknown { got: yaml::shorten(argument), suggestion }
 }
 
 /// What an option takes, in words.
@@ -312,11 +292,7 @@ fn expected_value(option: &str) -> &'static str {
 
 /// The error for a value in the wrong form.
 fn form(option: &str, got: &str, expected: impl Into<String>) -> ArgumentError {
-    ArgumentError::Form {
-        option: option.to_owned(),
-        got: yaml::shorten(got),
-        expected: expected.into(),
-    }
+    ArgumentError::Form { option: option.to_owned(), got: yaml::shorten(got), expected: expected.into() }
 }
 
 /// Splits a `node:` prefix off, if there is one.
@@ -329,9 +305,7 @@ fn split_node(text: &str) -> (Option<String>, &str) {
 
 /// Parses `[node:]name:=value`.
 fn parse_param(option: &str, text: &str) -> Result<Param, ArgumentError> {
-    let (left, value_text) = text
-        .split_once(":=")
-        .ok_or_else(|| form(option, text, "name:=value"))?;
+    let (left, value_text) = text.split_once(":=").ok_or_else(|| form(option, text, "name:=value"))?;
     let (node, name) = split_node(left);
     if name.is_empty() || name.contains(char::is_whitespace) {
         return Err(form(option, text, "name:=value"));
@@ -339,14 +313,10 @@ fn parse_param(option: &str, text: &str) -> Result<Param, ArgumentError> {
     let value = if value_text.is_empty() {
         crate::ParameterValue::String(String::new())
     } else {
-        let tree = yaml::parse(value_text)
-            .map_err(|(_, reason)| form(option, text, format!("a YAML value ({reason})")))?;
+        let tree =
+            yaml::parse(value_text).map_err(|(_, reason)| form(option, text, format!("a YAML value ({reason})")))?;
         parameter_file::to_value(tree).map_err(|got| {
-            form(
-                option,
-                text,
-                format!("a bool, a number, a string, or a list of one of these, not {got}"),
-            )
+            form(option, text, format!("a bool, a number, a string, or a list of one of these, not {got}"))
         })?
     };
     Ok(Param {
@@ -361,15 +331,10 @@ fn parse_param(option: &str, text: &str) -> Result<Param, ArgumentError> {
 
 /// Parses `[node:]from:=to` and checks both names.
 fn parse_remap(option: &str, text: &str) -> Result<Remap, ArgumentError> {
-    let (left, to) = text
-        .split_once(":=")
-        .ok_or_else(|| form(option, text, "from:=to"))?;
+    let (left, to) = text.split_once(":=").ok_or_else(|| form(option, text, "from:=to"))?;
     let left = left.trim_start_matches("rostopic://").trim_start_matches("rosservice://");
     let (node, from) = split_node(left);
-    let any = NodeName {
-        name: "node".to_owned(),
-        namespace: "/".to_owned(),
-    };
+    let any = NodeName { name: "node".to_owned(), namespace: "/".to_owned() };
     match from {
         "__node" | "__name" => {
             NodeName::new(to, "/")?;
@@ -385,11 +350,7 @@ fn parse_remap(option: &str, text: &str) -> Result<Remap, ArgumentError> {
             any.expand("topic", to)?;
         }
     }
-    Ok(Remap {
-        node,
-        from: from.to_owned(),
-        to: to.to_owned(),
-    })
+    Ok(Remap { node, from: from.to_owned(), to: to.to_owned() })
 }
 
 /// Parses `level` or `logger:=level`.
@@ -407,12 +368,11 @@ fn parse_level(option: &str, text: &str) -> Result<(Option<String>, LevelFilter)
         "none" | "off" => LevelFilter::Off,
         other => {
             let levels = ["debug", "info", "warn", "error", "fatal"];
-            return Err(form(
-                option,
-                text,
-                format!("one of {}{}", levels.join(", "), did_you_mean(other, levels)),
-            ));
+            return Err(form(option, text, format!("one of {}{}", levels.join(", "), did_you_mean(other, levels))));
         }
     };
     Ok((logger, level))
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,7 +5,7 @@ use std::{
         Arc,
         atomic::{AtomicI64, Ordering},
     },
-    time::{SystemTime, UNIX_EPOCH},
+    time::{Instant, SystemTime, UNIX_EPOCH},
 };
 
 use apprentice_msgs::builtin_interfaces::Time;
@@ -15,14 +15,15 @@ use apprentice_msgs::builtin_interfaces::Time;
 pub(crate) struct Clock {
     /// Nanoseconds of the simulation; `None` for the system's time.
     simulated: Option<Arc<AtomicI64>>,
+    /// When the clock was made.
+    made: Instant,
 }
 
 impl Clock {
     /// A clock; the simulation's stands at zero until `/clock` says otherwise, as in ROS.
+    #[expect(clippy::disallowed_methods, reason = "the bus is where time enters")]
     pub(crate) fn new(simulated: bool) -> Clock {
-        Clock {
-            simulated: simulated.then(|| Arc::new(AtomicI64::new(0))),
-        }
+        Clock { simulated: simulated.then(|| Arc::new(AtomicI64::new(0))), made: Instant::now() }
     }
 
     /// Nanoseconds since the epoch of this clock.
@@ -30,6 +31,14 @@ impl Clock {
         match &self.simulated {
             Some(time) => time.load(Ordering::SeqCst),
             None => system_ns(),
+        }
+    }
+
+    /// Nanoseconds for timers: the simulation's, or real ones that never jump when the system's time is set.
+    pub(crate) fn timer_ns(&self) -> i64 {
+        match &self.simulated {
+            Some(time) => time.load(Ordering::SeqCst),
+            None => i64::try_from(self.made.elapsed().as_nanos()).unwrap_or(i64::MAX),
         }
     }
 
@@ -66,14 +75,8 @@ pub(crate) fn to_time(ns: i64) -> Time {
     let rest = u32::try_from(ns.rem_euclid(1_000_000_000)).expect("a remainder below 1e9");
     match i32::try_from(sec) {
         Ok(sec) => Time { sec, nanosec: rest },
-        Err(_) if sec < 0 => Time {
-            sec: i32::MIN,
-            nanosec: 0,
-        },
-        Err(_) => Time {
-            sec: i32::MAX,
-            nanosec: 999_999_999,
-        },
+        Err(_) if sec < 0 => Time { sec: i32::MIN, nanosec: 0 },
+        Err(_) => Time { sec: i32::MAX, nanosec: 999_999_999 },
     }
 }
 

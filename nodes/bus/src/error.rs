@@ -54,7 +54,9 @@ pub enum BusError {
         got: usize,
     },
     /// An encoding that RustDDS cannot write.
-    #[error("cannot publish on {topic}: the message is encoded as {got}; only little-endian CDR (0x00 0x01) can be sent")]
+    #[error(
+        "cannot publish on {topic}: the message is encoded as {got}; only little-endian CDR (0x00 0x01) can be sent"
+    )]
     Encoding {
         /// The topic.
         topic: String,
@@ -100,10 +102,7 @@ impl NodeError {
             | NodeError::Parameters(_)
             | NodeError::Start(_)
             | NodeError::Bus(
-                BusError::Name(_)
-                | BusError::Parameter(_)
-                | BusError::Environment { .. }
-                | BusError::TypeName { .. },
+                BusError::Name(_) | BusError::Parameter(_) | BusError::Environment { .. } | BusError::TypeName { .. },
             ) => 2,
             NodeError::Bus(_) | NodeError::Failed(_) => 1,
         }

@@ -66,15 +66,8 @@ pub(crate) struct Health {
 impl Health {
     /// Replaces the status.
     pub(crate) fn set(&self, level: Level, message: String, values: &[(&str, String)]) {
-        let values = values
-            .iter()
-            .map(|(key, value)| ((*key).to_owned(), value.clone()))
-            .collect();
-        *self.status.lock().unwrap_or_else(PoisonError::into_inner) = Status {
-            level,
-            message,
-            values,
-        };
+        let values = values.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect();
+        *self.status.lock().unwrap_or_else(PoisonError::into_inner) = Status { level, message, values };
     }
 
     /// The message for `/diagnostics`.
@@ -88,11 +81,7 @@ impl Health {
     ) -> DiagnosticArray {
         let status = self.status.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let count = |counter: &AtomicU64| counter.load(Ordering::Relaxed).to_string();
-        let mut values: Vec<KeyValue> = status
-            .values
-            .into_iter()
-            .map(|(key, value)| KeyValue { key, value })
-            .collect();
+        let mut values: Vec<KeyValue> = status.values.into_iter().map(|(key, value)| KeyValue { key, value }).collect();
         for (key, value) in [
             ("received", count(&counters.received)),
             ("malformed", count(&counters.malformed)),
@@ -100,21 +89,14 @@ impl Health {
             ("lost", count(&counters.lost)),
             ("queue_length", waiting.to_string()),
         ] {
-            values.push(KeyValue {
-                key: key.to_owned(),
-                value,
-            });
+            values.push(KeyValue { key: key.to_owned(), value });
         }
         let mut array = DiagnosticArray::default();
         array.header.stamp = stamp;
         array.status.push(DiagnosticStatus {
             level: status.level.number(),
             name: node.trim_start_matches('/').to_owned(),
-            message: if status.message.is_empty() {
-                "running".to_owned()
-            } else {
-                status.message
-            },
+            message: if status.message.is_empty() { "running".to_owned() } else { status.message },
             hardware_id: instance.to_owned(),
             values,
         });

@@ -23,10 +23,8 @@ pub(crate) fn help<S: NodeSettings>() -> String {
         crate::arguments::DEFAULT_NAMESPACE,
     );
     for spec in S::PARAMETERS {
-        let default = defaults
-            .get(spec.name)
-            .map(|value| settings::to_parameter(value).to_string())
-            .unwrap_or_default();
+        let default =
+            defaults.get(spec.name).map(|value| settings::to_parameter(value).to_string()).unwrap_or_default();
         text.push_str(&format!("  {} = {default}\n      {}", spec.name, spec.about));
         if spec.range != Range::Any {
             text.push_str(&format!(" [{}]", spec.range));

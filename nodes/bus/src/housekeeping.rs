@@ -8,9 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use apprentice_msgs::{
-    diagnostic_msgs::DiagnosticArray, msg::Heartbeat, rcl_interfaces::Log as RosLog,
-};
+use apprentice_msgs::{diagnostic_msgs::DiagnosticArray, msg::Heartbeat, rcl_interfaces::Log as RosLog};
 use log::Level;
 
 use crate::{
@@ -67,22 +65,12 @@ impl Housekeeping {
     /// Publishes the heartbeat, and each second time the diagnostics.
     fn beat(&self, count: u64) {
         let stamp = clock::to_time(clock::system_ns());
-        let heartbeat = Heartbeat {
-            stamp,
-            node: self.node.clone(),
-            instance: self.instance.clone(),
-            count,
-        };
+        let heartbeat = Heartbeat { stamp, node: self.node.clone(), instance: self.instance.clone(), count };
         // A lost heartbeat is followed by the next; a lost graph shows in what the node itself publishes.
         let _ = self.heartbeat.publish(&heartbeat);
         if count % 2 == 1 {
-            let array = self.health.message(
-                self.clock.now(),
-                &self.node,
-                &self.instance,
-                &self.counters,
-                (self.waiting)(),
-            );
+            let array =
+                self.health.message(self.clock.now(), &self.node, &self.instance, &self.counters, (self.waiting)());
             let _ = self.diagnostics.publish(&array);
         }
     }

@@ -2,10 +2,9 @@
 
 use std::{
     cell::Cell,
-    collections::HashMap,
     io::{IsTerminal, Write},
     sync::{
-        Arc, Mutex, Once, OnceLock, PoisonError, RwLock,
+        Arc, Once, OnceLock, PoisonError, RwLock,
         atomic::{AtomicU64, Ordering},
         mpsc::SyncSender,
     },
@@ -32,9 +31,6 @@ const FOREIGN: &[&str] = &[
 
 /// Longest text of one line, in bytes.
 const MAX_TEXT_BYTES: usize = 16_000;
-
-/// How far apart repeated errors of foreign crates are shown, nanoseconds.
-const FOREIGN_PERIOD_NS: i64 = 10_000_000_000;
 
 /// One line for `/rosout`.
 #[derive(Debug, Clone)]
@@ -64,7 +60,6 @@ static NODES: RwLock<Vec<Arc<NodeLog>>> = RwLock::new(Vec::new());
 static NEXT_ID: AtomicU64 = AtomicU64::new(1);
 static INSTALL: Once = Once::new();
 static COLOURS: OnceLock<bool> = OnceLock::new();
-static FOREIGN_SHOWN: Mutex<Option<HashMap<String, i64>>> = Mutex::new(None);
 
 thread_local! {
     /// The node that this thread works for; 0 for none.
@@ -73,21 +68,10 @@ thread_local! {
 
 /// Makes a node known and the logger the process's, unless another one already is.
 /// The calling thread then works for this node.
-pub(crate) fn attach(
-    logger: &str,
-    level: LevelFilter,
-    stderr: bool,
-    rosout: Option<SyncSender<LogLine>>,
-) -> Attached {
+pub(crate) fn attach(logger: &str, level: LevelFilter, stderr: bool, rosout: Option<SyncSender<LogLine>>) -> Attached {
     let id = NEXT_ID.fetch_add(1, Ordering::Relaxed);
     let mut nodes = NODES.write().unwrap_or_else(PoisonError::into_inner);
-    nodes.push(Arc::new(NodeLog {
-        id,
-        logger: logger.to_owned(),
-        level,
-        stderr,
-        rosout,
-    }));
+    nodes.push(Arc::new(NodeLog { id, logger: logger.to_owned(), level, stderr, rosout }));
     INSTALL.call_once(|| {
         // Another logger may have been installed first (a test harness); then that one is used.
         let _ = log::set_logger(&BusLogger);
@@ -113,10 +97,7 @@ impl Attached {
 
 impl Drop for Attached {
     fn drop(&mut self) {
-        NODES
-            .write()
-            .unwrap_or_else(PoisonError::into_inner)
-            .retain(|node| node.id != self.id);
+        NODES.write().unwrap_or_else(PoisonError::into_inner).retain(|node| node.id != self.id);
     }
 }
 
@@ -129,11 +110,7 @@ pub(crate) fn enter(id: u64) {
 fn current() -> Option<Arc<NodeLog>> {
     let id = CURRENT.try_with(Cell::get).unwrap_or(0);
     let nodes = NODES.read().unwrap_or_else(PoisonError::into_inner);
-    nodes
-        .iter()
-        .find(|node| node.id == id)
-        .or_else(|| nodes.first().filter(|_| nodes.len() == 1))
-        .cloned()
+    nodes.iter().find(|node| node.id == id).or_else(|| nodes.first().filter(|_| nodes.len() == 1)).cloned()
 }
 
 /// The process's logger.
@@ -149,9 +126,8 @@ impl Log for BusLogger {
     fn enabled(&self, metadata: &Metadata<'_>) -> bool {
         let level = current().map_or(LevelFilter::Info, |node| node.level);
         if is_foreign(metadata.target()) {
-            metadata.level() == Level::Error
-                || (level >= LevelFilter::Debug && metadata.level() <= Level::Warn)
-                || level >= LevelFilter::Trace
+            // What matters to the user comes back as errors; these lines are for finding defects.
+            (level >= LevelFilter::Debug && metadata.level() <= Level::Warn) || level >= LevelFilter::Trace
         } else {
             metadata.level() <= level
         }
@@ -164,19 +140,13 @@ impl Log for BusLogger {
         let node = current();
         let mut text = record.args().to_string();
         if text.len() > MAX_TEXT_BYTES {
-            let end = (0..=MAX_TEXT_BYTES)
-                .rev()
-                .find(|end| text.is_char_boundary(*end))
-                .unwrap_or(0);
+            let end = (0..=MAX_TEXT_BYTES).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
             text.truncate(end);
             text.push('…');
         }
         if is_foreign(record.target()) {
-            let debugging = node.as_ref().is_some_and(|node| node.level >= LevelFilter::Debug);
-            if debugging || foreign_is_due(record.target()) {
-                let logger = format!("{} ({})", logger_name(&node), record.target());
-                write_stderr(record.level(), &logger, &text);
-            }
+            let logger = format!("{} ({})", logger_name(&node), record.target());
+            write_stderr(record.level(), &logger, &text);
             return;
         }
         if node.as_ref().is_none_or(|node| node.stderr) {
@@ -201,29 +171,13 @@ impl Log for BusLogger {
 
 /// What stands in the brackets.
 fn logger_name(node: &Option<Arc<NodeLog>>) -> String {
-    node.as_ref()
-        .map_or_else(|| "apprentice".to_owned(), |node| node.logger.clone())
-}
-
-/// Whether an error of a foreign crate was not shown lately.
-fn foreign_is_due(target: &str) -> bool {
-    let now = crate::clock::system_ns();
-    let mut shown = FOREIGN_SHOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let shown = shown.get_or_insert_with(HashMap::new);
-    match shown.get(target) {
-        Some(last) if now - last < FOREIGN_PERIOD_NS => false,
-        _ => {
-            shown.insert(target.to_owned(), now);
-            true
-        }
-    }
+    node.as_ref().map_or_else(|| "apprentice".to_owned(), |node| node.logger.clone())
 }
 
 /// Writes one line; colours only on a terminal that wants them.
 fn write_stderr(level: Level, logger: &str, text: &str) {
-    let colours = *COLOURS.get_or_init(|| {
-        std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|no| no.is_empty())
-    });
+    let colours = *COLOURS
+        .get_or_init(|| std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|no| no.is_empty()));
     let (name, colour) = match level {
         Level::Error => ("ERROR", "\x1b[31m"),
         Level::Warn => ("WARN", "\x1b[33m"),
@@ -231,11 +185,7 @@ fn write_stderr(level: Level, logger: &str, text: &str) {
         Level::Debug => ("DEBUG", "\x1b[90m"),
         Level::Trace => ("TRACE", "\x1b[90m"),
     };
-    let (start, end) = if colours && !colour.is_empty() {
-        (colour, "\x1b[0m")
-    } else {
-        ("", "")
-    };
+    let (start, end) = if colours && !colour.is_empty() { (colour, "\x1b[0m") } else { ("", "") };
     // A closed standard error is no reason to stop a robot.
     let _ = writeln!(std::io::stderr().lock(), "{start}[{name}] [{logger}]: {text}{end}");
 }

@@ -14,10 +14,7 @@ use crate::{
     names::NodeName,
     qos::{Durability, QosProfile},
     stop::Stopper,
-    transport::{
-        Deliver, EndpointInfo, Guard, Handler, RawMessage, Sink, TopicInfo, Transport, split_type,
-        weakest,
-    },
+    transport::{Deliver, EndpointInfo, Guard, Handler, RawMessage, Sink, TopicInfo, Transport, split_type, weakest},
 };
 
 /// A graph within this process. Clones are the same graph.
@@ -111,10 +108,7 @@ impl MemoryGraph {
         if stopped {
             stopper.stop();
         }
-        MemoryTransport {
-            graph: self.clone(),
-            node: node.full(),
-        }
+        MemoryTransport { graph: self.clone(), node: node.full() }
     }
 
     /// Forgets a node's stopper.
@@ -145,11 +139,7 @@ impl Inner {
 /// A message that was sent and received now.
 fn message(cdr: Vec<u8>) -> RawMessage {
     let now = clock::to_time(clock::system_ns());
-    RawMessage {
-        received: now,
-        source_timestamp: Some(now),
-        cdr,
-    }
+    RawMessage { received: now, source_timestamp: Some(now), cdr }
 }
 
 /// The graph as one node sees it.
@@ -221,11 +211,7 @@ impl Sink for MemorySink {
     fn write(&self, cdr: Vec<u8>) -> Result<(), BusError> {
         let message = message(cdr);
         let mut inner = self.graph.lock();
-        let Inner {
-            publishers,
-            subscriptions,
-            ..
-        } = &mut *inner;
+        let Inner { publishers, subscriptions, .. } = &mut *inner;
         let Some(publisher) = publishers.iter_mut().find(|publisher| publisher.id == self.id) else {
             return Ok(());
         };
@@ -248,21 +234,12 @@ impl Sink for MemorySink {
         let Some(publisher) = inner.publishers.iter().find(|publisher| publisher.id == self.id) else {
             return 0;
         };
-        inner
-            .subscriptions
-            .iter()
-            .filter(|subscription| matched(publisher, subscription))
-            .count()
+        inner.subscriptions.iter().filter(|subscription| matched(publisher, subscription)).count()
     }
 }
 
 impl Transport for MemoryTransport {
-    fn publisher(
-        &self,
-        topic: &str,
-        type_name: &str,
-        qos: &QosProfile,
-    ) -> Result<Arc<dyn Sink>, BusError> {
+    fn publisher(&self, topic: &str, type_name: &str, qos: &QosProfile) -> Result<Arc<dyn Sink>, BusError> {
         split_type(type_name, &["msg", "srv", "action"])?;
         let mut inner = self.graph.lock();
         let id = inner.fresh_id();
@@ -278,19 +255,10 @@ impl Transport for MemoryTransport {
             warn_mismatch(&publisher, subscription);
         }
         inner.publishers.push(publisher);
-        Ok(Arc::new(MemorySink {
-            graph: self.graph.clone(),
-            id,
-        }))
+        Ok(Arc::new(MemorySink { graph: self.graph.clone(), id }))
     }
 
-    fn subscribe(
-        &self,
-        topic: &str,
-        type_name: &str,
-        qos: &QosProfile,
-        deliver: Deliver,
-    ) -> Result<Guard, BusError> {
+    fn subscribe(&self, topic: &str, type_name: &str, qos: &QosProfile, deliver: Deliver) -> Result<Guard, BusError> {
         split_type(type_name, &["msg", "srv", "action"])?;
         let mut inner = self.graph.lock();
         let id = inner.fresh_id();
@@ -304,9 +272,7 @@ impl Transport for MemoryTransport {
         };
         for publisher in &inner.publishers {
             warn_mismatch(publisher, &subscription);
-            if matched(publisher, &subscription)
-                && subscription.qos.durability == Durability::TransientLocal
-            {
+            if matched(publisher, &subscription) && subscription.qos.durability == Durability::TransientLocal {
                 let skipped = publisher.kept.len().saturating_sub(subscription.qos.depth.max(1));
                 for message in publisher.kept.iter().skip(skipped) {
                     (subscription.deliver)(message.clone());
@@ -314,53 +280,35 @@ impl Transport for MemoryTransport {
             }
         }
         inner.subscriptions.push(subscription);
-        Ok(Box::new(OnDrop {
-            graph: Arc::downgrade(&self.graph.inner),
-            id,
-        }))
+        Ok(Box::new(OnDrop { graph: Arc::downgrade(&self.graph.inner), id }))
     }
 
     fn serve(&self, name: &str, type_name: &str, handler: Handler) -> Result<Guard, BusError> {
         split_type(type_name, &["srv"])?;
         let mut inner = self.graph.lock();
         let id = inner.fresh_id();
-        inner
-            .services
-            .insert(name.to_owned(), (id, Arc::new(Mutex::new(handler))));
-        Ok(Box::new(OnDrop {
-            graph: Arc::downgrade(&self.graph.inner),
-            id,
-        }))
+        inner.services.insert(name.to_owned(), (id, Arc::new(Mutex::new(handler))));
+        Ok(Box::new(OnDrop { graph: Arc::downgrade(&self.graph.inner), id }))
     }
 
     fn topics(&self) -> Vec<TopicInfo> {
         let inner = self.graph.lock();
         let mut topics: BTreeMap<(String, String), TopicInfo> = BTreeMap::new();
-        let publishers = inner
-            .publishers
-            .iter()
-            .map(|one| (true, one.id, &one.node, &one.topic, &one.type_name, &one.qos));
-        let subscriptions = inner
-            .subscriptions
-            .iter()
-            .map(|one| (false, one.id, &one.node, &one.topic, &one.type_name, &one.qos));
+        let publishers =
+            inner.publishers.iter().map(|one| (true, one.id, &one.node, &one.topic, &one.type_name, &one.qos));
+        let subscriptions =
+            inner.subscriptions.iter().map(|one| (false, one.id, &one.node, &one.topic, &one.type_name, &one.qos));
         for (publishes, id, node, name, type_name, qos) in publishers.chain(subscriptions) {
-            let topic = topics
-                .entry((name.clone(), type_name.clone()))
-                .or_insert_with(|| TopicInfo {
-                    name: name.clone(),
-                    type_name: type_name.clone(),
-                    qos: qos.clone(),
-                    publishers: Vec::new(),
-                    subscriptions: Vec::new(),
-                });
+            let topic = topics.entry((name.clone(), type_name.clone())).or_insert_with(|| TopicInfo {
+                name: name.clone(),
+                type_name: type_name.clone(),
+                qos: qos.clone(),
+                publishers: Vec::new(),
+                subscriptions: Vec::new(),
+            });
             let mut gid = [0; 16];
             gid[..8].copy_from_slice(&id.to_le_bytes());
-            let endpoint = EndpointInfo {
-                node: Some(node.clone()),
-                gid,
-                qos: qos.clone(),
-            };
+            let endpoint = EndpointInfo { node: Some(node.clone()), gid, qos: qos.clone() };
             if publishes {
                 topic.publishers.push(endpoint);
             } else {

@@ -35,18 +35,11 @@ impl NodeName {
     /// When a part breaks the naming rules.
     pub fn new(name: &str, namespace: &str) -> Result<NodeName, NameError> {
         check_token("node", name, name)?;
-        let namespace = if namespace.starts_with('/') {
-            namespace.to_owned()
-        } else {
-            format!("/{namespace}")
-        };
+        let namespace = if namespace.starts_with('/') { namespace.to_owned() } else { format!("/{namespace}") };
         if namespace != "/" {
             check_absolute("namespace", &namespace)?;
         }
-        Ok(NodeName {
-            name: name.to_owned(),
-            namespace,
-        })
+        Ok(NodeName { name: name.to_owned(), namespace })
     }
 
     /// The fully qualified name, such as `/apprentice/reward_posterior`.
@@ -73,32 +66,19 @@ impl NodeName {
         } else {
             join(&self.namespace, name)
         };
-        check_absolute(kind, &absolute).map_err(|error| NameError {
-            got: name.to_owned(),
-            ..error
-        })?;
+        check_absolute(kind, &absolute).map_err(|error| NameError { got: name.to_owned(), ..error })?;
         Ok(absolute)
     }
 }
 
 /// `namespace` and `name` with exactly one slash between them.
 fn join(namespace: &str, name: &str) -> String {
-    if namespace == "/" {
-        format!("/{name}")
-    } else {
-        format!("{namespace}/{name}")
-    }
+    if namespace == "/" { format!("/{name}") } else { format!("{namespace}/{name}") }
 }
 
 /// Refuses an absolute name that ROS would refuse.
 fn check_absolute(kind: &'static str, name: &str) -> Result<(), NameError> {
-    let refuse = |reason| {
-        Err(NameError {
-            kind,
-            got: name.to_owned(),
-            reason,
-        })
-    };
+    let refuse = |reason| Err(NameError { kind, got: name.to_owned(), reason });
     if name.len() > MAX_NAME_BYTES {
         return refuse("it is longer than 250 bytes");
     }
@@ -116,13 +96,7 @@ fn check_absolute(kind: &'static str, name: &str) -> Result<(), NameError> {
 
 /// Refuses one part of a name (between slashes) that ROS would refuse.
 fn check_token(kind: &'static str, whole: &str, token: &str) -> Result<(), NameError> {
-    let refuse = |reason| {
-        Err(NameError {
-            kind,
-            got: whole.to_owned(),
-            reason,
-        })
-    };
+    let refuse = |reason| Err(NameError { kind, got: whole.to_owned(), reason });
     match token.as_bytes().first() {
         None => return refuse("a part between slashes is empty"),
         Some(first) if first.is_ascii_digit() => {
@@ -130,10 +104,7 @@ fn check_token(kind: &'static str, whole: &str, token: &str) -> Result<(), NameE
         }
         Some(_) => {}
     }
-    if !token
-        .bytes()
-        .all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
-    {
+    if !token.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') {
         return refuse("only letters, digits, `_` and `/` are allowed");
     }
     if token.contains("__") {
@@ -169,10 +140,7 @@ fn parts_match(pattern: &[&str], parts: &[&str]) -> bool {
             }
             if *wanted == "**" {
                 next[index..].fill(true);
-            } else if parts
-                .get(index)
-                .is_some_and(|part| *wanted == "*" || part == wanted)
-            {
+            } else if parts.get(index).is_some_and(|part| *wanted == "*" || part == wanted) {
                 next[index + 1] = true;
             }
         }
@@ -192,12 +160,9 @@ mod tests {
     #[test]
     fn names_expand_as_ros_does() {
         let node = node();
-        for (given, wanted) in [
-            ("scene", "/a/b/scene"),
-            ("/scene", "/scene"),
-            ("~/scene", "/a/b/planner/scene"),
-            ("x/y", "/a/b/x/y"),
-        ] {
+        for (given, wanted) in
+            [("scene", "/a/b/scene"), ("/scene", "/scene"), ("~/scene", "/a/b/planner/scene"), ("x/y", "/a/b/x/y")]
+        {
             assert_eq!(node.expand("topic", given).as_deref(), Ok(wanted));
         }
         let root = NodeName::new("planner", "").expect("a legal name");

@@ -65,10 +65,7 @@ impl std::fmt::Display for Range {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Range::Any => f.write_str("any"),
-            Range::Integer {
-                min: i64::MIN,
-                max: i64::MAX,
-            } => f.write_str("any integer"),
+            Range::Integer { min: i64::MIN, max: i64::MAX } => f.write_str("any integer"),
             Range::Integer { min, max: i64::MAX } => write!(f, "{min} or more"),
             Range::Integer { min, max } => write!(f, "{min} to {max}"),
             Range::Float { min, max } if *max == f64::MAX || max.is_infinite() => {

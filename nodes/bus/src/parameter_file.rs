@@ -36,15 +36,10 @@ pub(crate) struct Section {
 
 /// Reads a parameter file.
 pub(crate) fn read(path: &Path) -> Result<Vec<Section>, ParameterError> {
-    let unreadable = |error: std::io::Error| ParameterError::Read {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    };
+    let unreadable = |error: std::io::Error| ParameterError::Read { path: path.to_owned(), reason: error.to_string() };
     let file = File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
-    file.take(MAX_YAML_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(unreadable)?;
+    file.take(MAX_YAML_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > MAX_YAML_BYTES {
         return Err(ParameterError::TooLarge {
             path: path.to_owned(),
@@ -60,14 +55,8 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Section>, ParameterError> {
 }
 
 /// Parses the text of a parameter file; `place` says where a line is.
-pub(crate) fn parse(
-    text: &str,
-    place: &dyn Fn(u64) -> Place,
-) -> Result<Vec<Section>, ParameterError> {
-    let tree = yaml::parse(text).map_err(|(line, reason)| ParameterError::Yaml {
-        place: place(line),
-        reason,
-    })?;
+pub(crate) fn parse(text: &str, place: &dyn Fn(u64) -> Place) -> Result<Vec<Section>, ParameterError> {
+    let tree = yaml::parse(text).map_err(|(line, reason)| ParameterError::Yaml { place: place(line), reason })?;
     let mut sections = Vec::new();
     match tree {
         Yaml::Null => {}
@@ -110,10 +99,7 @@ fn sections_in(
                 Yaml::Map(entries) => parameters_in("", entries, place, 0, &mut parameters)?,
                 other => return Err(structure(other.describe(), "a mapping of parameters")),
             }
-            sections.push(Section {
-                pattern: path.to_owned(),
-                parameters,
-            });
+            sections.push(Section { pattern: path.to_owned(), parameters });
             continue;
         }
         let below = match path {
@@ -158,11 +144,7 @@ fn parameters_in(
                     got: format!("`{}` = {got}", shorten(&name)),
                     expected: "a bool, a number, a string, or a list of one of these".to_owned(),
                 })?;
-                parameters.push(Given {
-                    name,
-                    value,
-                    place: place(line),
-                });
+                parameters.push(Given { name, value, place: place(line) });
             }
         }
     }
@@ -199,11 +181,7 @@ pub(crate) fn to_value(value: Yaml) -> Result<ParameterValue, String> {
             if let [first, rest @ ..] = values.as_slice()
                 && let Some(other) = rest.iter().find(|value| value.type_name() != first.type_name())
             {
-                return Err(format!(
-                    "a list of mixed types ({} and {})",
-                    first.type_name(),
-                    other.type_name()
-                ));
+                return Err(format!("a list of mixed types ({} and {})", first.type_name(), other.type_name()));
             }
             ParameterValue::Array(values)
         }
@@ -228,15 +206,9 @@ mod tests {
         assert_eq!(sections.len(), 2);
         assert_eq!(sections[0].pattern, "/**");
         assert_eq!(sections[1].pattern, "/ns/node");
-        let names: Vec<_> = sections[0]
-            .parameters
-            .iter()
-            .map(|given| (given.name.as_str(), given.place.clone()))
-            .collect();
-        assert_eq!(
-            names,
-            [("a", Place::Text(3)), ("b.c", Place::Text(5)), ("b.d", Place::Text(6))]
-        );
+        let names: Vec<_> =
+            sections[0].parameters.iter().map(|given| (given.name.as_str(), given.place.clone())).collect();
+        assert_eq!(names, [("a", Place::Text(3)), ("b.c", Place::Text(5)), ("b.d", Place::Text(6))]);
         assert_eq!(
             sections[0].parameters[1].value,
             ParameterValue::Array(vec![ParameterValue::Double(1.0), ParameterValue::Double(2.5)])
@@ -258,10 +230,7 @@ mod tests {
             };
             assert_eq!(place, Place::Text(line), "{text:?}");
         }
-        assert!(matches!(
-            sections("/**:\n  ros__parameters:\n    x: 1\n    x: 2\n"),
-            Err(ParameterError::Yaml { .. })
-        ));
+        assert!(matches!(sections("/**:\n  ros__parameters:\n    x: 1\n    x: 2\n"), Err(ParameterError::Yaml { .. })));
         assert!(matches!(sections("a: [1"), Err(ParameterError::Yaml { .. })));
     }
 

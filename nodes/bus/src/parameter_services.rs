@@ -3,11 +3,10 @@
 use std::sync::Arc;
 
 use apprentice_msgs::rcl_interfaces::{
-    DescribeParameters, DescribeParametersResponse, FloatingPointRange, GetParameterTypes,
-    GetParameterTypesResponse, GetParameters, GetParametersResponse, IntegerRange, ListParameters,
-    ListParametersRequest, ListParametersResponse, ListParametersResult, ParameterDescriptor,
-    ParameterType, ParameterValue as RosValue, SetParameters, SetParametersAtomically,
-    SetParametersAtomicallyResponse, SetParametersResponse, SetParametersResult,
+    DescribeParameters, DescribeParametersResponse, FloatingPointRange, GetParameterTypes, GetParameterTypesResponse,
+    GetParameters, GetParametersResponse, IntegerRange, ListParameters, ListParametersRequest, ListParametersResponse,
+    ListParametersResult, ParameterDescriptor, ParameterType, ParameterValue as RosValue, SetParameters,
+    SetParametersAtomically, SetParametersAtomicallyResponse, SetParametersResponse, SetParametersResult,
 };
 
 use crate::{
@@ -47,48 +46,32 @@ pub(crate) fn serve<E: Send + 'static, S: NodeSettings>(
         values: here.each(&request.names, |entry| entry.value.clone()),
     })?;
     let here = Arc::clone(&table);
-    bus.serve::<GetParameterTypes>("~/get_parameter_types", move |request| {
-        GetParameterTypesResponse {
-            types: here.each(&request.names, |entry| entry.value.r#type),
-        }
+    bus.serve::<GetParameterTypes>("~/get_parameter_types", move |request| GetParameterTypesResponse {
+        types: here.each(&request.names, |entry| entry.value.r#type),
     })?;
     let here = Arc::clone(&table);
-    bus.serve::<DescribeParameters>("~/describe_parameters", move |request| {
-        DescribeParametersResponse {
-            descriptors: request
-                .names
-                .iter()
-                .map(|name| here.describe(name))
-                .collect(),
-        }
+    bus.serve::<DescribeParameters>("~/describe_parameters", move |request| DescribeParametersResponse {
+        descriptors: request.names.iter().map(|name| here.describe(name)).collect(),
     })?;
     let here = Arc::clone(&table);
     bus.serve::<SetParameters>("~/set_parameters", move |request| SetParametersResponse {
-        results: request
-            .parameters
-            .iter()
-            .map(|parameter| here.refuse(&parameter.name))
-            .collect(),
+        results: request.parameters.iter().map(|parameter| here.refuse(&parameter.name)).collect(),
     })?;
     bus.serve::<SetParametersAtomically>("~/set_parameters_atomically", move |request| {
         SetParametersAtomicallyResponse {
-            result: request.parameters.first().map_or(
-                SetParametersResult {
-                    successful: true,
-                    reason: String::new(),
-                },
-                |parameter| table.refuse(&parameter.name),
-            ),
+            result: request
+                .parameters
+                .first()
+                .map_or(SetParametersResult { successful: true, reason: String::new() }, |parameter| {
+                    table.refuse(&parameter.name)
+                }),
         }
     })
 }
 
 impl Table {
     /// The node's own parameters and those of the bus.
-    fn new<S: NodeSettings>(
-        settings: &S,
-        bus_parameters: &BusParameters,
-    ) -> Result<Table, BusError> {
+    fn new<S: NodeSettings>(settings: &S, bus_parameters: &BusParameters) -> Result<Table, BusError> {
         let fields = settings::fields(settings)?;
         let own = S::PARAMETERS.iter().filter_map(|spec| {
             let value = fields.get(spec.name)?;
@@ -98,11 +81,7 @@ impl Table {
             ParameterValue::Bool(bus_parameters.use_sim_time),
             ParameterValue::String(bus_parameters.service_mapping.clone()),
         ]);
-        Ok(Table {
-            entries: own
-                .chain(of_bus.map(|(spec, value)| entry(spec, &value)))
-                .collect(),
-        })
+        Ok(Table { entries: own.chain(of_bus.map(|(spec, value)| entry(spec, &value))).collect() })
     }
 
     /// The parameter of this name.
@@ -112,19 +91,13 @@ impl Table {
 
     /// Something of each parameter named; the default for those that there are not.
     fn each<T: Default>(&self, names: &[String], get: impl Fn(&Entry) -> T) -> Vec<T> {
-        names
-            .iter()
-            .map(|name| self.find(name).map(&get).unwrap_or_default())
-            .collect()
+        names.iter().map(|name| self.find(name).map(&get).unwrap_or_default()).collect()
     }
 
     /// The descriptor of a parameter; of the type "not set" when there is none.
     fn describe(&self, name: &str) -> ParameterDescriptor {
         self.find(name).map_or_else(
-            || ParameterDescriptor {
-                name: shorten(name),
-                ..ParameterDescriptor::default()
-            },
+            || ParameterDescriptor { name: shorten(name), ..ParameterDescriptor::default() },
             |entry| entry.descriptor.clone(),
         )
     }
@@ -141,10 +114,7 @@ impl Table {
             }
             request.prefixes.iter().any(|prefix| {
                 name == prefix
-                    || name
-                        .strip_prefix(prefix.as_str())
-                        .and_then(|rest| rest.strip_prefix('.'))
-                        .is_some_and(shallow)
+                    || name.strip_prefix(prefix.as_str()).and_then(|rest| rest.strip_prefix('.')).is_some_and(shallow)
             })
         };
         let mut result = ListParametersResult::default();
@@ -170,10 +140,7 @@ impl Table {
         } else {
             format!("there is no parameter {}", shorten(name))
         };
-        SetParametersResult {
-            successful: false,
-            reason,
-        }
+        SetParametersResult { successful: false, reason }
     }
 }
 
@@ -189,16 +156,12 @@ fn entry(spec: &ParameterSpec, value: &ParameterValue) -> Entry {
     };
     match spec.range {
         Range::Any => {}
-        Range::Integer { min, max } => descriptor.integer_range.push(IntegerRange {
-            from_value: min,
-            to_value: max,
-            step: 0,
-        }),
-        Range::Float { min, max } => descriptor.floating_point_range.push(FloatingPointRange {
-            from_value: min,
-            to_value: max,
-            step: 0.0,
-        }),
+        Range::Integer { min, max } => {
+            descriptor.integer_range.push(IntegerRange { from_value: min, to_value: max, step: 0 })
+        }
+        Range::Float { min, max } => {
+            descriptor.floating_point_range.push(FloatingPointRange { from_value: min, to_value: max, step: 0.0 })
+        }
         Range::Choice(choices) => {
             descriptor.additional_constraints = format!("one of {}", choices.join(", "));
         }
@@ -260,11 +223,7 @@ mod tests {
             entries: names
                 .iter()
                 .map(|name| {
-                    let spec = ParameterSpec {
-                        name,
-                        about: "a test",
-                        range: Range::Float { min: 0.0, max: 1.0 },
-                    };
+                    let spec = ParameterSpec { name, about: "a test", range: Range::Float { min: 0.0, max: 1.0 } };
                     entry(&spec, &ParameterValue::Double(0.5))
                 })
                 .collect(),

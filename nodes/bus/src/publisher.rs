@@ -21,10 +21,7 @@ pub struct Publisher<M> {
 
 impl<M> Clone for Publisher<M> {
     fn clone(&self) -> Self {
-        Publisher {
-            raw: self.raw.clone(),
-            message: PhantomData,
-        }
+        Publisher { raw: self.raw.clone(), message: PhantomData }
     }
 }
 
@@ -37,10 +34,7 @@ impl<M> std::fmt::Debug for Publisher<M> {
 impl<M: Message> Publisher<M> {
     /// Wraps a publisher of bytes.
     pub(crate) fn new(raw: RawPublisher) -> Publisher<M> {
-        Publisher {
-            raw,
-            message: PhantomData,
-        }
+        Publisher { raw, message: PhantomData }
     }
 
     /// Publishes one message.
@@ -79,11 +73,7 @@ impl std::fmt::Debug for RawPublisher {
 impl RawPublisher {
     /// Wraps the graph's end.
     pub(crate) fn new(sink: Arc<dyn Sink>, topic: &str, counters: Arc<Counters>) -> RawPublisher {
-        RawPublisher {
-            sink,
-            topic: Arc::from(topic),
-            counters,
-        }
+        RawPublisher { sink, topic: Arc::from(topic), counters }
     }
 
     /// Publishes one CDR message with its 4-byte header, as it was recorded.
@@ -92,10 +82,7 @@ impl RawPublisher {
     /// When the bytes are shorter than a header, or DDS does not take them.
     pub fn publish(&self, cdr: &[u8]) -> Result<(), BusError> {
         if cdr.len() < 4 {
-            return Err(BusError::NoCdr {
-                topic: self.topic.to_string(),
-                got: cdr.len(),
-            });
+            return Err(BusError::NoCdr { topic: self.topic.to_string(), got: cdr.len() });
         }
         self.send(cdr.to_vec())
     }

@@ -40,14 +40,7 @@ pub struct QosProfile {
 impl QosProfile {
     /// A profile without deadline, lifespan and lease.
     pub const fn new(reliability: Reliability, durability: Durability, depth: usize) -> QosProfile {
-        QosProfile {
-            reliability,
-            durability,
-            depth,
-            deadline: None,
-            lifespan: None,
-            liveliness_lease: None,
-        }
+        QosProfile { reliability, durability, depth, deadline: None, lifespan: None, liveliness_lease: None }
     }
 
     /// Whether a subscription that asks for `self` is served by a publisher that offers `offered`.

@@ -59,10 +59,7 @@ impl<E: Send + 'static> Queue<E> {
     /// An empty queue that lets go of everybody once `stopper` stops.
     pub(crate) fn new(capacity: usize, stopper: Stopper) -> Arc<Queue<E>> {
         let queue = Arc::new(Queue {
-            inner: Mutex::new(Inner {
-                items: VecDeque::new(),
-                wakes: 0,
-            }),
+            inner: Mutex::new(Inner { items: VecDeque::new(), wakes: 0 }),
             filled: Condvar::new(),
             emptied: Condvar::new(),
             capacity,
@@ -91,10 +88,7 @@ impl<E: Send + 'static> Queue<E> {
             Overflow::Grow => {}
             Overflow::Block => {
                 while inner.items.len() >= self.capacity && !self.stopper.stopped() {
-                    inner = self
-                        .emptied
-                        .wait(inner)
-                        .unwrap_or_else(PoisonError::into_inner);
+                    inner = self.emptied.wait(inner).unwrap_or_else(PoisonError::into_inner);
                 }
             }
             Overflow::DropOldest => {
@@ -112,10 +106,7 @@ impl<E: Send + 'static> Queue<E> {
         if self.stopper.stopped() {
             return lost;
         }
-        inner.items.push_back(Item {
-            may_be_lost: overflow == Overflow::DropOldest,
-            event,
-        });
+        inner.items.push_back(Item { may_be_lost: overflow == Overflow::DropOldest, event });
         self.filled.notify_one();
         lost
     }
@@ -124,19 +115,11 @@ impl<E: Send + 'static> Queue<E> {
     pub(crate) fn pop(&self, timeout: Option<Duration>) -> Popped<E> {
         let mut inner = self.lock();
         let wakes = inner.wakes;
-        let quiet = |inner: &mut Inner<E>| {
-            inner.items.is_empty() && inner.wakes == wakes && !self.stopper.stopped()
-        };
+        let quiet = |inner: &mut Inner<E>| inner.items.is_empty() && inner.wakes == wakes && !self.stopper.stopped();
         inner = match timeout {
-            None => self
-                .filled
-                .wait_while(inner, quiet)
-                .unwrap_or_else(PoisonError::into_inner),
+            None => self.filled.wait_while(inner, quiet).unwrap_or_else(PoisonError::into_inner),
             Some(timeout) => {
-                self.filled
-                    .wait_timeout_while(inner, timeout, quiet)
-                    .unwrap_or_else(PoisonError::into_inner)
-                    .0
+                self.filled.wait_timeout_while(inner, timeout, quiet).unwrap_or_else(PoisonError::into_inner).0
             }
         };
         if self.stopper.stopped() {

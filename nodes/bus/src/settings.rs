@@ -11,11 +11,7 @@ use crate::{
 
 /// Parameters that every node takes because the bus itself uses them.
 pub(crate) const BUS_PARAMETERS: &[ParameterSpec] = &[
-    ParameterSpec {
-        name: "use_sim_time",
-        about: "take the time from the topic /clock",
-        range: Range::Any,
-    },
+    ParameterSpec { name: "use_sim_time", about: "take the time from the topic /clock", range: Range::Any },
     ParameterSpec {
         name: "service_mapping",
         about: "how services travel over DDS: enhanced suits rmw_fastrtps_cpp, cyclone suits rmw_cyclonedds_cpp, auto follows RMW_IMPLEMENTATION",
@@ -42,10 +38,7 @@ pub(crate) struct BusParameters {
 impl BusParameters {
     /// Picks them out of everything given.
     pub(crate) fn from_given(given: &[Given]) -> Result<BusParameters, ParameterError> {
-        let mut parameters = BusParameters {
-            service_mapping: "auto".to_owned(),
-            ..BusParameters::default()
-        };
+        let mut parameters = BusParameters { service_mapping: "auto".to_owned(), ..BusParameters::default() };
         for one in given {
             match one.name.as_str() {
                 "use_sim_time" => {
@@ -76,10 +69,7 @@ pub(crate) fn fields<S: NodeSettings>(settings: &S) -> Result<Map<String, Value>
             node: S::NODE.to_owned(),
             reason: format!("the settings are no structure but {other}"),
         }),
-        Err(error) => Err(ParameterError::Definition {
-            node: S::NODE.to_owned(),
-            reason: error.to_string(),
-        }),
+        Err(error) => Err(ParameterError::Definition { node: S::NODE.to_owned(), reason: error.to_string() }),
     }
 }
 
@@ -98,26 +88,15 @@ pub(crate) fn build<S: NodeSettings>(given: &[Given]) -> Result<S, ParameterErro
             return Err(unknown::<S>(one));
         }
     }
-    let settings: S =
-        serde_json::from_value(Value::Object(map)).map_err(|error| ParameterError::Together {
-            node: S::NODE.to_owned(),
-            reason: error.to_string(),
-        })?;
-    settings.check().map_err(|reason| ParameterError::Together {
-        node: S::NODE.to_owned(),
-        reason,
-    })?;
+    let settings: S = serde_json::from_value(Value::Object(map))
+        .map_err(|error| ParameterError::Together { node: S::NODE.to_owned(), reason: error.to_string() })?;
+    settings.check().map_err(|reason| ParameterError::Together { node: S::NODE.to_owned(), reason })?;
     Ok(settings)
 }
 
 /// The error for a parameter that the node does not have.
 fn unknown<S: NodeSettings>(given: &Given) -> ParameterError {
-    let names = || {
-        S::PARAMETERS
-            .iter()
-            .chain(BUS_PARAMETERS)
-            .map(|spec| spec.name)
-    };
+    let names = || S::PARAMETERS.iter().chain(BUS_PARAMETERS).map(|spec| spec.name);
     let mut suggestion = did_you_mean(&given.name, names());
     if suggestion.is_empty() {
         suggestion = format!("; it has {}", names().collect::<Vec<_>>().join(", "));
@@ -167,10 +146,8 @@ fn convert(given: &Given, spec: &ParameterSpec, default: &Value) -> Result<Value
                     _ => Value::from(""),
                 },
             });
-            let converted: Result<Vec<Value>, ParameterError> = values
-                .iter()
-                .map(|value| scalar(given, value, spec, &model).unwrap_or_else(|| Err(wrong())))
-                .collect();
+            let converted: Result<Vec<Value>, ParameterError> =
+                values.iter().map(|value| scalar(given, value, spec, &model).unwrap_or_else(|| Err(wrong()))).collect();
             Ok(Value::Array(converted?))
         }
         (default, value) => scalar(given, value, spec, default).unwrap_or_else(|| Err(wrong())),
@@ -195,17 +172,13 @@ fn scalar(
     };
     match (default, value) {
         (Value::Bool(_), ParameterValue::Bool(value)) => Some(Ok(Value::Bool(*value))),
-        (Value::Number(number), ParameterValue::Integer(integer)) if !number.is_f64() => {
-            match spec.range {
-                Range::Integer { min, max } if !(min..=max).contains(integer) => {
-                    out_of_range(spec.range.to_string(), String::new())
-                }
-                _ => Some(Ok(Value::from(*integer))),
+        (Value::Number(number), ParameterValue::Integer(integer)) if !number.is_f64() => match spec.range {
+            Range::Integer { min, max } if !(min..=max).contains(integer) => {
+                out_of_range(spec.range.to_string(), String::new())
             }
-        }
-        (Value::Number(number), ParameterValue::Integer(_) | ParameterValue::Double(_))
-            if number.is_f64() =>
-        {
+            _ => Some(Ok(Value::from(*integer))),
+        },
+        (Value::Number(number), ParameterValue::Integer(_) | ParameterValue::Double(_)) if number.is_f64() => {
             let double = match value {
                 ParameterValue::Integer(integer) => *integer as f64,
                 ParameterValue::Double(double) => *double,
@@ -222,10 +195,9 @@ fn scalar(
             }
         }
         (Value::String(_), ParameterValue::String(text)) => match spec.range {
-            Range::Choice(choices) if !choices.contains(&text.as_str()) => out_of_range(
-                format!("one of {}", spec.range),
-                did_you_mean(text, choices.iter().copied()),
-            ),
+            Range::Choice(choices) if !choices.contains(&text.as_str()) => {
+                out_of_range(format!("one of {}", spec.range), did_you_mean(text, choices.iter().copied()))
+            }
             _ => Some(Ok(Value::String(text.clone()))),
         },
         _ => None,
@@ -265,9 +237,10 @@ pub fn settings_to_yaml<S: NodeSettings>(settings: &S) -> String {
 /// # Errors
 /// As for parameters given to a node.
 pub fn settings_from_yaml<S: NodeSettings>(text: &str) -> Result<S, ParameterError> {
-    let given: Vec<Given> = parameter_file::parse(text, &Place::Text)?
-        .into_iter()
-        .flat_map(|section| section.parameters)
-        .collect();
+    let given: Vec<Given> =
+        parameter_file::parse(text, &Place::Text)?.into_iter().flat_map(|section| section.parameters).collect();
     build(&given)
 }
+
+#[cfg(test)]
+mod tests;

@@ -33,25 +33,16 @@ static INSTALLED: OnceLock<Result<(), String>> = OnceLock::new();
 /// # Errors
 /// When the handlers cannot be installed.
 pub(crate) fn stop_on_signals(stopper: &Stopper) -> Result<(), BusError> {
-    STOPPERS
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .push(stopper.clone());
+    STOPPERS.lock().unwrap_or_else(PoisonError::into_inner).push(stopper.clone());
     INSTALLED
         .get_or_init(|| install().map_err(|error| error.to_string()))
         .clone()
-        .map_err(|reason| BusError::System {
-            what: "signal handlers",
-            source: std::io::Error::other(reason),
-        })
+        .map_err(|reason| BusError::System { what: "signal handlers", source: std::io::Error::other(reason) })
 }
 
 /// Forgets a node.
 pub(crate) fn forget(stopper: &Stopper) {
-    STOPPERS
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .retain(|other| !other.same(stopper));
+    STOPPERS.lock().unwrap_or_else(PoisonError::into_inner).retain(|other| !other.same(stopper));
 }
 
 /// Ends every node of this process.
@@ -64,31 +55,25 @@ fn stop_all() {
 /// Starts the threads that wait.
 fn install() -> std::io::Result<()> {
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
-    thread::Builder::new()
-        .name("signals".to_owned())
-        .spawn(move || {
-            let mut interrupted = false;
-            for signal in signals.forever() {
-                if signal == SIGINT && interrupted {
-                    std::process::exit(INTERRUPTED);
-                }
-                interrupted |= signal == SIGINT;
-                stop_all();
+    thread::Builder::new().name("signals".to_owned()).spawn(move || {
+        let mut interrupted = false;
+        for signal in signals.forever() {
+            if signal == SIGINT && interrupted {
+                std::process::exit(INTERRUPTED);
             }
-        })?;
-    let parent = std::env::var(PARENT_VARIABLE)
-        .ok()
-        .and_then(|text| text.trim().parse::<u32>().ok());
+            interrupted |= signal == SIGINT;
+            stop_all();
+        }
+    })?;
+    let parent = std::env::var(PARENT_VARIABLE).ok().and_then(|text| text.trim().parse::<u32>().ok());
     if let Some(parent) = parent {
-        thread::Builder::new()
-            .name("parent".to_owned())
-            .spawn(move || {
-                while std::os::unix::process::parent_id() == parent {
-                    thread::sleep(PARENT_PERIOD);
-                }
-                log::warn!("the process {parent} that started this node is gone; ending");
-                stop_all();
-            })?;
+        thread::Builder::new().name("parent".to_owned()).spawn(move || {
+            while std::os::unix::process::parent_id() == parent {
+                thread::sleep(PARENT_PERIOD);
+            }
+            log::warn!("the process {parent} that started this node is gone; ending");
+            stop_all();
+        })?;
     }
     Ok(())
 }

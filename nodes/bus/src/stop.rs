@@ -38,11 +38,7 @@ impl Stopper {
 
     /// Has `waker` called when the node is asked to end.
     pub(crate) fn on_stop(&self, waker: Waker) {
-        self.inner
-            .wakers
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .push(waker);
+        self.inner.wakers.lock().unwrap_or_else(PoisonError::into_inner).push(waker);
     }
 
     /// Whether both ask the same node.
@@ -53,8 +49,6 @@ impl Stopper {
 
 impl std::fmt::Debug for Stopper {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Stopper")
-            .field("stopped", &self.stopped())
-            .finish_non_exhaustive()
+        f.debug_struct("Stopper").field("stopped", &self.stopped()).finish_non_exhaustive()
     }
 }

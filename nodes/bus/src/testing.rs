@@ -36,12 +36,11 @@ pub fn check_parameters<S: NodeSettings>() {
             let good = match (spec.range, value) {
                 (Range::Any, Value::Bool(_) | Value::String(_)) => true,
                 (Range::Any, Value::Number(number)) => number.is_i64() || number.is_f64(),
-                (Range::Integer { min, max }, Value::Number(number)) => number
-                    .as_i64()
-                    .is_some_and(|integer| (min..=max).contains(&integer)),
+                (Range::Integer { min, max }, Value::Number(number)) => {
+                    number.as_i64().is_some_and(|integer| (min..=max).contains(&integer))
+                }
                 (Range::Float { min, max }, Value::Number(number)) => {
-                    number.is_f64()
-                        && number.as_f64().is_some_and(|double| (min..=max).contains(&double))
+                    number.is_f64() && number.as_f64().is_some_and(|double| (min..=max).contains(&double))
                 }
                 (Range::Choice(choices), Value::String(text)) => choices.contains(&text.as_str()),
                 _ => false,
@@ -54,12 +53,9 @@ pub fn check_parameters<S: NodeSettings>() {
     }
     let text = settings_to_yaml(&defaults);
     match settings_from_yaml::<S>(&text) {
-        Ok(again) => assert_eq!(
-            settings_to_yaml(&again),
-            text,
-            "{}: the defaults change on their way through YAML",
-            S::NODE
-        ),
+        Ok(again) => {
+            assert_eq!(settings_to_yaml(&again), text, "{}: the defaults change on their way through YAML", S::NODE)
+        }
         Err(error) => panic!("{}: the defaults written as YAML are refused: {error}\n{text}", S::NODE),
     }
 }

@@ -38,21 +38,10 @@ pub(crate) type Guard = Box<dyn Send>;
 /// A graph as one node sees it. Names are absolute, types are `pkg/msg/Name`.
 pub(crate) trait Transport: Send + Sync {
     /// Makes a publisher.
-    fn publisher(
-        &self,
-        topic: &str,
-        type_name: &str,
-        qos: &QosProfile,
-    ) -> Result<Arc<dyn Sink>, BusError>;
+    fn publisher(&self, topic: &str, type_name: &str, qos: &QosProfile) -> Result<Arc<dyn Sink>, BusError>;
 
     /// Makes a subscription.
-    fn subscribe(
-        &self,
-        topic: &str,
-        type_name: &str,
-        qos: &QosProfile,
-        deliver: Deliver,
-    ) -> Result<Guard, BusError>;
+    fn subscribe(&self, topic: &str, type_name: &str, qos: &QosProfile, deliver: Deliver) -> Result<Guard, BusError>;
 
     /// Offers a service of the type `pkg/srv/Name`.
     fn serve(&self, name: &str, type_name: &str, handler: Handler) -> Result<Guard, BusError>;
@@ -106,23 +95,14 @@ pub(crate) fn weakest(publishers: &[EndpointInfo]) -> Option<QosProfile> {
 }
 
 /// Checks a `pkg/kind/Name` type name; gives package and name.
-pub(crate) fn split_type<'a>(
-    type_name: &'a str,
-    kinds: &[&str],
-) -> Result<(&'a str, &'a str, &'a str), BusError> {
-    let refuse = || BusError::TypeName {
-        got: crate::yaml::shorten(type_name),
-    };
+pub(crate) fn split_type<'a>(type_name: &'a str, kinds: &[&str]) -> Result<(&'a str, &'a str, &'a str), BusError> {
+    let refuse = || BusError::TypeName { got: crate::yaml::shorten(type_name) };
     let good = |part: &str| {
-        !part.is_empty()
-            && part.len() < 200
-            && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+        !part.is_empty() && part.len() < 200 && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
     };
     let mut parts = type_name.split('/');
     match (parts.next(), parts.next(), parts.next(), parts.next()) {
-        (Some(package), Some(kind), Some(name), None)
-            if good(package) && kinds.contains(&kind) && good(name) =>
-        {
+        (Some(package), Some(kind), Some(name), None) if good(package) && kinds.contains(&kind) && good(name) => {
             Ok((package, kind, name))
         }
         _ => Err(refuse()),

@@ -68,6 +68,7 @@ pub(crate) fn parse(text: &str) -> Result<Yaml, (u64, String)> {
             max_anchors: 100,
         },
         with_snippet: false,
+        non_finite_float_policy: serde_saphyr::NonFiniteFloatPolicy::PassThrough,
     };
     serde_saphyr::from_str_with_options::<Yaml>(text, options).map_err(|error| {
         let line = error.location().map_or(0, |location| location.line());
@@ -109,9 +110,9 @@ impl<'de> Visitor<'de> for YamlVisitor {
     }
 
     fn visit_u64<E: serde::de::Error>(self, value: u64) -> Result<Yaml, E> {
-        i64::try_from(value).map(Yaml::Integer).map_err(|_| {
-            E::custom(format!("the integer {value} does not fit into 64 bits with a sign"))
-        })
+        i64::try_from(value)
+            .map(Yaml::Integer)
+            .map_err(|_| E::custom(format!("the integer {value} does not fit into 64 bits with a sign")))
     }
 
     fn visit_i128<E: serde::de::Error>(self, value: i128) -> Result<Yaml, E> {

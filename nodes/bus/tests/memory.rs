@@ -3,19 +3,18 @@
 use std::time::Duration;
 
 use apprentice_msgs::{
+    diagnostic_msgs::DiagnosticArray,
     msg::{Heartbeat, NodeSettings as NodeSettingsMessage},
     rcl_interfaces::{
-        DescribeParameters, DescribeParametersRequest, GetParameters, GetParametersRequest,
-        ListParameters, ListParametersRequest, Log, Parameter, SetParameters, SetParametersRequest,
+        DescribeParameters, DescribeParametersRequest, GetParameters, GetParametersRequest, ListParameters,
+        ListParametersRequest, Log, Parameter, SetParameters, SetParametersRequest,
     },
     rosgraph_msgs::Clock,
     std_msgs::String as Text,
     std_srvs::{SetBool, SetBoolRequest, SetBoolResponse},
-    diagnostic_msgs::DiagnosticArray,
 };
 use bus::{
-    Arguments, Bus, Graph, Level, MemoryGraph, Next, NodeSettings, ParameterSpec, Qos, Range,
-    settings_from_yaml,
+    Arguments, Bus, Graph, Level, MemoryGraph, Next, NodeSettings, ParameterSpec, Qos, Range, settings_from_yaml,
 };
 use serde::{Deserialize, Serialize};
 
@@ -35,16 +34,8 @@ impl NodeSettings for Settings {
     const NODE: &'static str = "tested";
     const ABOUT: &'static str = "A node under test.";
     const PARAMETERS: &'static [ParameterSpec] = &[
-        ParameterSpec {
-            name: "speed",
-            about: "metres per second",
-            range: Range::Float { min: 0.0, max: 1.0 },
-        },
-        ParameterSpec {
-            name: "count",
-            about: "how many",
-            range: Range::Integer { min: 1, max: 10 },
-        },
+        ParameterSpec { name: "speed", about: "metres per second", range: Range::Float { min: 0.0, max: 1.0 } },
+        ParameterSpec { name: "count", about: "how many", range: Range::Integer { min: 1, max: 10 } },
     ];
 }
 
@@ -71,9 +62,7 @@ fn open(graph: &MemoryGraph, args: &[&str]) -> Bus<Event> {
 }
 
 fn text(data: &str) -> Text {
-    Text {
-        data: data.to_owned(),
-    }
+    Text { data: data.to_owned() }
 }
 
 /// Events until nothing comes for a while.
@@ -90,9 +79,7 @@ fn what_is_published_arrives_in_order() {
     let graph = MemoryGraph::new();
     let mut sender = open(&graph, &["-r", "__node:=sender"]);
     let mut receiver = open(&graph, &["-r", "__node:=receiver"]);
-    receiver
-        .subscribe("words", Qos::Event, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    receiver.subscribe("words", Qos::Event, |message: Text| Event::Text(message.data)).expect("a subscription");
     let words = sender.publisher::<Text>("words", Qos::Event).expect("a publisher");
     assert_eq!(words.subscriptions(), 1);
     for index in 0..2000 {
@@ -117,15 +104,10 @@ fn late_joiners_get_states_and_logs_but_no_events() {
     }
     let mut receiver = open(&graph, &["-r", "__node:=receiver"]);
     for (topic, qos) in [("state", Qos::State), ("log", Qos::Log), ("event", Qos::Event)] {
-        receiver
-            .subscribe(topic, qos, |message: Text| Event::Text(message.data))
-            .expect("a subscription");
+        receiver.subscribe(topic, qos, |message: Text| Event::Text(message.data)).expect("a subscription");
     }
     let got = drain(&mut receiver);
-    let wanted: Vec<Event> = ["state 2", "log 1", "log 2"]
-        .iter()
-        .map(|text| Event::Text((*text).to_owned()))
-        .collect();
+    let wanted: Vec<Event> = ["state 2", "log 1", "log 2"].iter().map(|text| Event::Text((*text).to_owned())).collect();
     assert_eq!(got, wanted);
 }
 
@@ -134,8 +116,7 @@ fn quality_of_service_and_types_must_fit() {
     let graph = MemoryGraph::new();
     let mut node = open(&graph, &[]);
     let stream = node.publisher::<Text>("words", Qos::Stream).expect("a publisher");
-    node.subscribe("words", Qos::Event, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    node.subscribe("words", Qos::Event, |message: Text| Event::Text(message.data)).expect("a subscription");
     node.subscribe("words", Qos::Stream, Event::Heartbeat).expect("a subscription");
     assert_eq!(stream.subscriptions(), 0);
     stream.publish(&text("unheard")).expect("published");
@@ -146,8 +127,7 @@ fn quality_of_service_and_types_must_fit() {
 fn malformed_messages_are_counted_and_left_out() {
     let graph = MemoryGraph::new();
     let mut node = open(&graph, &[]);
-    node.subscribe("words", Qos::Event, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    node.subscribe("words", Qos::Event, |message: Text| Event::Text(message.data)).expect("a subscription");
     let topic = "/apprentice/words";
     for bytes in [&[][..], &[0, 1], &[0, 1, 0, 0], &[0, 1, 0, 0, 255, 255, 255, 255, 65]] {
         assert_eq!(graph.inject_raw(topic, "std_msgs/msg/String", bytes), 1);
@@ -163,10 +143,7 @@ fn remapping_and_namespaces_move_topics() {
     let mut sender = open(&graph, &["--ros-args", "-r", "words:=/shared/text", "-r", "__ns:=/a/b"]);
     let publisher = sender.publisher::<Text>("words", Qos::Event).expect("a publisher");
     assert_eq!(publisher.topic(), "/shared/text");
-    assert_eq!(
-        sender.publisher::<Text>("~/own", Qos::Event).expect("a publisher").topic(),
-        "/a/b/tested/own"
-    );
+    assert_eq!(sender.publisher::<Text>("~/own", Qos::Event).expect("a publisher").topic(), "/a/b/tested/own");
     let names: Vec<String> = sender.topics().into_iter().map(|topic| topic.name).collect();
     for name in ["/shared/text", "/a/b/heartbeat", "/a/b/settings", "/rosout", "/diagnostics"] {
         assert!(names.iter().any(|known| known == name), "{name} is not in {names:?}");
@@ -179,9 +156,7 @@ fn every_node_tells_how_it_was_started_and_that_it_lives() {
     let node = open(&graph, &["-p", "speed:=0.7"]);
     node.status(Level::Warn, "a little warm", &[("temperature", "40".to_owned())]);
     let mut watcher = open(&graph, &["-r", "__node:=watcher"]);
-    watcher
-        .subscribe("settings", Qos::Log, |message| Event::Settings(Box::new(message)))
-        .expect("a subscription");
+    watcher.subscribe("settings", Qos::Log, |message| Event::Settings(Box::new(message))).expect("a subscription");
     watcher.subscribe("heartbeat", Qos::Event, Event::Heartbeat).expect("a subscription");
     watcher.subscribe("/rosout", Qos::Log, Event::Log).expect("a subscription");
     watcher.subscribe("/diagnostics", Qos::Event, Event::Diagnostics).expect("a subscription");
@@ -224,21 +199,13 @@ fn parameters_can_be_listed_read_and_described_but_not_set() {
     assert_eq!(list.result.names, ["speed", "count", "use_sim_time", "service_mapping"]);
     let names = vec!["speed".to_owned(), "nonsense".to_owned()];
     let values = graph
-        .call::<GetParameters>(
-            &service("get_parameters"),
-            &GetParametersRequest {
-                names: names.clone(),
-            },
-        )
+        .call::<GetParameters>(&service("get_parameters"), &GetParametersRequest { names: names.clone() })
         .expect("an answer")
         .values;
     assert_eq!(values[0].double_value, 0.7);
     assert_eq!(values[1].r#type, 0);
     let described = graph
-        .call::<DescribeParameters>(
-            &service("describe_parameters"),
-            &DescribeParametersRequest { names },
-        )
+        .call::<DescribeParameters>(&service("describe_parameters"), &DescribeParametersRequest { names })
         .expect("an answer")
         .descriptors;
     assert_eq!(described[0].description, "metres per second");
@@ -246,12 +213,7 @@ fn parameters_can_be_listed_read_and_described_but_not_set() {
     let set = graph
         .call::<SetParameters>(
             &service("set_parameters"),
-            &SetParametersRequest {
-                parameters: vec![Parameter {
-                    name: "speed".to_owned(),
-                    ..Parameter::default()
-                }],
-            },
+            &SetParametersRequest { parameters: vec![Parameter { name: "speed".to_owned(), ..Parameter::default() }] },
         )
         .expect("an answer");
     assert!(!set.results[0].successful && set.results[0].reason.contains("restart"));
@@ -261,11 +223,8 @@ fn parameters_can_be_listed_read_and_described_but_not_set() {
 fn services_answer() {
     let graph = MemoryGraph::new();
     let mut node = open(&graph, &[]);
-    node.serve::<SetBool>("switch", |request| SetBoolResponse {
-        success: request.data,
-        message: "done".to_owned(),
-    })
-    .expect("a service");
+    node.serve::<SetBool>("switch", |request| SetBoolResponse { success: request.data, message: "done".to_owned() })
+        .expect("a service");
     let answer = graph.call::<SetBool>("/apprentice/switch", &SetBoolRequest { data: true });
     assert_eq!(answer.map(|answer| answer.success), Some(true));
     assert!(graph.call::<SetBool>("/switch", &SetBoolRequest { data: true }).is_none());
@@ -327,9 +286,8 @@ fn raw_messages_pass_through_unchanged() {
     let graph = MemoryGraph::new();
     let mut node = open(&graph, &[]);
     let qos = Qos::Event.profile();
-    let subscription = node
-        .subscribe_raw("/x", "pkg/msg/Unknown", qos.clone(), |raw| Event::Raw(raw.cdr))
-        .expect("a subscription");
+    let subscription =
+        node.subscribe_raw("/x", "pkg/msg/Unknown", qos.clone(), |raw| Event::Raw(raw.cdr)).expect("a subscription");
     let publisher = node.publisher_raw("/x", "pkg/msg/Unknown", qos.clone()).expect("a publisher");
     let bytes = [0, 1, 0, 0, 9, 8, 7];
     publisher.publish(&bytes).expect("published");

@@ -25,10 +25,7 @@ impl RawCdr {
         if cdr.len() < 4 || cdr[..2] != CDR_LE[..2] {
             return None;
         }
-        Some(RawCdr {
-            encoding: [cdr[0], cdr[1]],
-            body: Bytes::from(cdr).slice(4..),
-        })
+        Some(RawCdr { encoding: [cdr[0], cdr[1]], body: Bytes::from(cdr).slice(4..) })
     }
 
     /// The message with its header.
@@ -87,19 +84,9 @@ impl DeserializerAdapter<RawCdr> for BytesAdapter {
 impl Decode<'_, RawCdr> for BytesDecoder {
     type Error = Infallible;
 
-    fn decode_bytes(
-        self,
-        input_bytes: &[u8],
-        encoding: RepresentationIdentifier,
-    ) -> Result<RawCdr, Infallible> {
-        let encoding = ENCODINGS
-            .iter()
-            .find(|(known, _)| *known == encoding)
-            .map_or([0, 1], |(_, bytes)| *bytes);
-        Ok(RawCdr {
-            encoding,
-            body: Bytes::copy_from_slice(input_bytes),
-        })
+    fn decode_bytes(self, input_bytes: &[u8], encoding: RepresentationIdentifier) -> Result<RawCdr, Infallible> {
+        let encoding = ENCODINGS.iter().find(|(known, _)| *known == encoding).map_or([0, 1], |(_, bytes)| *bytes);
+        Ok(RawCdr { encoding, body: Bytes::copy_from_slice(input_bytes) })
     }
 }
 

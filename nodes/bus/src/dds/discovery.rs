@@ -2,14 +2,15 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet, HashSet},
-    sync::{Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Duration,
 };
 
 use futures::StreamExt;
 use ros2_client::dds::rustdds::{
-    DomainParticipant, DomainParticipantStatusEvent as Event, EndpointDescription, GUID, QosPolicies,
-    StatusEvented,
+    DomainParticipant, DomainParticipantStatusEvent as Event, EndpointDescription, GUID, QosPolicies, StatusEvented,
 };
+use smol::{Timer, channel};
 
 use crate::{
     dds::{
@@ -22,6 +23,10 @@ use crate::{
 
 /// The identity of an endpoint or a participant.
 pub(crate) type Gid = [u8; 16];
+
+/// How often and how many times the name of a new node is looked for.
+const NAME_PERIOD: Duration = Duration::from_millis(100);
+const NAME_PERIODS: u32 = 15;
 
 /// Most participants whose nodes are remembered.
 const MAX_PARTICIPANTS: usize = 1000;
@@ -39,10 +44,19 @@ pub(crate) struct LocalEndpoint {
     pub(crate) writes: bool,
 }
 
+/// Something that the user should know about a remote endpoint, said once its node's name is known.
+struct Report {
+    remote: Gid,
+    /// The text, around the name of the remote node.
+    before: String,
+    after: String,
+}
+
 /// The graph as this participant knows it.
-#[derive(Default)]
 pub(crate) struct GraphView {
     inner: Mutex<Inner>,
+    reports: channel::Sender<Report>,
+    to_say: channel::Receiver<Report>,
 }
 
 /// What the lock guards.
@@ -55,6 +69,17 @@ struct Inner {
 }
 
 impl GraphView {
+    /// An empty view.
+    pub(crate) fn new() -> GraphView {
+        let (reports, to_say) = channel::bounded(100);
+        GraphView { inner: Mutex::default(), reports, to_say }
+    }
+
+    /// Has something said; when far too much is to be said, the rest is left out.
+    fn report(&self, remote: Gid, before: String, after: String) {
+        let _ = self.reports.try_send(Report { remote, before, after });
+    }
+
     /// Takes the lock; a panic elsewhere leaves the view usable.
     fn lock(&self) -> MutexGuard<'_, Inner> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
@@ -74,11 +99,7 @@ impl GraphView {
 
     /// The endpoints of this node.
     pub(crate) fn local(&self) -> Vec<(Gid, LocalEndpoint)> {
-        self.lock()
-            .local
-            .iter()
-            .map(|(gid, endpoint)| (*gid, endpoint.clone()))
-            .collect()
+        self.lock().local.iter().map(|(gid, endpoint)| (*gid, endpoint.clone())).collect()
     }
 
     /// How many remote endpoints are matched with one of this node.
@@ -88,12 +109,7 @@ impl GraphView {
 
     /// The node that an endpoint belongs to.
     pub(crate) fn owner(&self, gid: Gid) -> Option<String> {
-        self.lock()
-            .participants
-            .values()
-            .flatten()
-            .find(|node| node.owns(gid))
-            .map(NodeInfo::full_name)
+        self.lock().participants.values().flatten().find(|node| node.owns(gid)).map(NodeInfo::full_name)
     }
 
     /// Whether this pair is reported for the first time.
@@ -117,19 +133,9 @@ impl GraphView {
     /// Takes in one event of discovery, and reports what does not fit.
     fn take(&self, event: Event) {
         match event {
-            Event::RemoteReaderMatched {
-                local_writer: local,
-                remote_reader: remote,
-            }
-            | Event::RemoteWriterMatched {
-                local_reader: local,
-                remote_writer: remote,
-            } => {
-                self.lock()
-                    .matched
-                    .entry(local.to_bytes())
-                    .or_default()
-                    .insert(remote.to_bytes());
+            Event::RemoteReaderMatched { local_writer: local, remote_reader: remote }
+            | Event::RemoteWriterMatched { local_reader: local, remote_writer: remote } => {
+                self.lock().matched.entry(local.to_bytes()).or_default().insert(remote.to_bytes());
             }
             Event::ReaderLost { guid, .. } | Event::WriterLost { guid, .. } => {
                 let gid = guid.to_bytes();
@@ -139,30 +145,19 @@ impl GraphView {
             }
             Event::ReaderDetected { reader } => self.check_types(&reader, false),
             Event::WriterDetected { writer } => self.check_types(&writer, true),
-            Event::RemoteReaderQosIncompatible {
-                local_writer,
-                remote_reader,
-                requested_qos,
-                offered_qos,
-            } => self.report_qos(local_writer, remote_reader, &requested_qos, &offered_qos),
-            Event::RemoteWriterQosIncompatible {
-                local_reader,
-                remote_writer,
-                requested_qos,
-                offered_qos,
-            } => self.report_qos(local_reader, remote_writer, &requested_qos, &offered_qos),
+            Event::RemoteReaderQosIncompatible { local_writer, remote_reader, requested_qos, offered_qos } => {
+                self.report_qos(local_writer, remote_reader, &requested_qos, &offered_qos)
+            }
+            Event::RemoteWriterQosIncompatible { local_reader, remote_writer, requested_qos, offered_qos } => {
+                self.report_qos(local_reader, remote_writer, &requested_qos, &offered_qos)
+            }
             _ => {}
         }
     }
 
     /// Reports endpoints of this node that meet a remote one of another type.
     pub(crate) fn check_types(&self, remote: &EndpointDescription, remote_writes: bool) {
-        self.check_type(
-            remote.guid.to_bytes(),
-            &remote.topic_name,
-            &remote.type_name,
-            remote_writes,
-        );
+        self.check_type(remote.guid.to_bytes(), &remote.topic_name, &remote.type_name, remote_writes);
     }
 
     /// The same by name.
@@ -171,9 +166,7 @@ impl GraphView {
             .lock()
             .local
             .iter()
-            .filter(|(_, local)| {
-                local.topic == topic && local.type_name != type_name && local.writes != remote_writes
-            })
+            .filter(|(_, local)| local.topic == topic && local.type_name != type_name && local.writes != remote_writes)
             .map(|(gid, local)| (*gid, local.clone()))
             .collect();
         for (gid, local) in clashes {
@@ -183,16 +176,12 @@ impl GraphView {
             let name = mangle::ros_topic(topic).unwrap_or(topic);
             let theirs = mangle::ros_type(type_name);
             let ours = mangle::ros_type(&local.type_name);
-            let who = self.who(remote);
-            if remote_writes {
-                log::warn!(
-                    "{name}: {who} publishes the type {theirs} but this node expects {ours}; its messages are left out"
-                );
+            let after = if remote_writes {
+                format!(" publishes the type {theirs} but this node expects {ours}; its messages are left out")
             } else {
-                log::warn!(
-                    "{name}: {who} expects the type {theirs} but this node publishes {ours}; it cannot read them"
-                );
-            }
+                format!(" expects the type {theirs} but this node publishes {ours}; it cannot read them")
+            };
+            self.report(remote, format!("{name}: "), after);
         }
     }
 
@@ -211,31 +200,18 @@ impl GraphView {
         let requested = policies::to_profile(requested);
         let offered = policies::to_profile(offered);
         let policy = requested.incompatibility(&offered).unwrap_or("quality of service");
-        let who = self.who(remote);
         let (asked, given) = match policy {
-            "reliability" => (
-                format!("{:?}", requested.reliability),
-                format!("{:?}", offered.reliability),
-            ),
-            "durability" => (
-                format!("{:?}", requested.durability),
-                format!("{:?}", offered.durability),
-            ),
-            "deadline" => (
-                format!("{:?}", requested.deadline),
-                format!("{:?}", offered.deadline),
-            ),
+            "reliability" => (format!("{:?}", requested.reliability), format!("{:?}", offered.reliability)),
+            "durability" => (format!("{:?}", requested.durability), format!("{:?}", offered.durability)),
+            "deadline" => (format!("{:?}", requested.deadline), format!("{:?}", offered.deadline)),
             _ => ("more".to_owned(), "less".to_owned()),
         };
-        if endpoint.writes {
-            log::warn!(
-                "{name}: {who} asks for {policy} {asked} but this node offers {given}; it gets no messages"
-            );
+        let after = if endpoint.writes {
+            format!(" asks for {policy} {asked} but this node offers {given}; it gets no messages")
         } else {
-            log::warn!(
-                "{name}: {who} offers {policy} {given} but this node asks for {asked}; no messages come from it"
-            );
-        }
+            format!(" offers {policy} {given} but this node asks for {asked}; no messages come from it")
+        };
+        self.report(remote, format!("{name}: "), after);
     }
 
     /// A remote endpoint in words.
@@ -248,10 +224,22 @@ impl GraphView {
 }
 
 /// Follows the events of discovery for ever.
-pub(crate) async fn watch(participant: DomainParticipant, view: std::sync::Arc<GraphView>) {
+pub(crate) async fn watch(participant: DomainParticipant, view: Arc<GraphView>) {
     let listener = participant.status_listener();
     let mut events = std::pin::pin!(listener.as_async_status_stream());
     while let Some(event) = events.next().await {
         view.take(event);
+    }
+}
+
+/// Says what is to be said, when the remote node's name has come or is not to be expected any more.
+pub(crate) async fn report(view: Arc<GraphView>) {
+    while let Ok(report) = view.to_say.recv().await {
+        let mut waited = 0;
+        while view.owner(report.remote).is_none() && waited < NAME_PERIODS {
+            Timer::after(NAME_PERIOD).await;
+            waited += 1;
+        }
+        log::warn!("{}{}{}", report.before, view.who(report.remote), report.after);
     }
 }

@@ -49,10 +49,7 @@ impl Environment {
     }
 
     /// The same from any source of variables.
-    fn from(
-        mapping: &str,
-        get: &dyn Fn(&'static str) -> Option<String>,
-    ) -> Result<Environment, BusError> {
+    fn from(mapping: &str, get: &dyn Fn(&'static str) -> Option<String>) -> Result<Environment, BusError> {
         let mut warnings = Vec::new();
         refuse_security(get)?;
         if get("ROS_STATIC_PEERS").is_some() {
@@ -72,14 +69,11 @@ fn domain(get: &dyn Fn(&'static str) -> Option<String>) -> Result<u16, BusError>
     let Some(text) = get("ROS_DOMAIN_ID") else {
         return Ok(0);
     };
-    text.parse::<u16>()
-        .ok()
-        .filter(|domain| *domain <= 232)
-        .ok_or(BusError::Environment {
-            variable: "ROS_DOMAIN_ID",
-            got: text,
-            expected: "an integer from 0 to 232".to_owned(),
-        })
+    text.parse::<u16>().ok().filter(|domain| *domain <= 232).ok_or(BusError::Environment {
+        variable: "ROS_DOMAIN_ID",
+        got: text,
+        expected: "an integer from 0 to 232".to_owned(),
+    })
 }
 
 /// The discovery range; the older `ROS_LOCALHOST_ONLY=1` goes first, as in ROS 2 Jazzy.
@@ -104,11 +98,7 @@ fn range(get: &dyn Fn(&'static str) -> Option<String>) -> Result<Range, BusError
             Err(BusError::Environment {
                 variable: "ROS_AUTOMATIC_DISCOVERY_RANGE",
                 got: other.to_owned(),
-                expected: format!(
-                    "one of {}{}",
-                    choices.join(", "),
-                    did_you_mean(other, choices)
-                ),
+                expected: format!("one of {}{}", choices.join(", "), did_you_mean(other, choices)),
             })
         }
     }
@@ -155,10 +145,7 @@ mod tests {
 
     fn read(variables: &[(&str, &str)]) -> Result<Environment, BusError> {
         Environment::from("auto", &|name| {
-            variables
-                .iter()
-                .find(|(other, _)| *other == name)
-                .map(|(_, value)| (*value).to_owned())
+            variables.iter().find(|(other, _)| *other == name).map(|(_, value)| (*value).to_owned())
         })
     }
 
@@ -186,10 +173,7 @@ mod tests {
             (vec![("ROS_LOCALHOST_ONLY", "1")], Range::Localhost),
             (vec![("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")], Range::Localhost),
             (vec![("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")], Range::Off),
-            (
-                vec![("ROS_LOCALHOST_ONLY", "1"), ("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")],
-                Range::Localhost,
-            ),
+            (vec![("ROS_LOCALHOST_ONLY", "1"), ("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")], Range::Localhost),
         ] {
             assert_eq!(read(&variables).map(|e| e.range).ok(), Some(wanted));
         }
@@ -207,8 +191,8 @@ mod tests {
 
     #[test]
     fn enforced_security_is_refused() {
-        let error = read(&[("ROS_SECURITY_ENABLE", "true"), ("ROS_SECURITY_STRATEGY", "Enforce")])
-            .expect_err("no security");
+        let error =
+            read(&[("ROS_SECURITY_ENABLE", "true"), ("ROS_SECURITY_STRATEGY", "Enforce")]).expect_err("no security");
         assert!(error.to_string().contains("not built into"), "{error}");
         assert!(read(&[("ROS_SECURITY_STRATEGY", "Enforce")]).is_ok());
     }

@@ -9,8 +9,8 @@ use std::{
 };
 
 use ros2_client::dds::rustdds::{
-    CDRDeserializerAdapter, CDRSerializerAdapter, DomainParticipant, DomainParticipantBuilder,
-    Publisher, QosPolicies, RTPSEntity, Subscriber, Topic, TopicKind, no_key,
+    CDRDeserializerAdapter, CDRSerializerAdapter, DomainParticipant, DomainParticipantBuilder, Publisher, QosPolicies,
+    RTPSEntity, Subscriber, Topic, TopicKind, no_key,
 };
 use smol::{Executor, channel};
 
@@ -56,10 +56,7 @@ pub(crate) struct DdsTransport {
 /// An error of RustDDS in the bus's words.
 pub(crate) fn refused(what: impl Into<String>) -> impl FnOnce(&dyn std::fmt::Display) -> BusError {
     let what = what.into();
-    move |reason| BusError::Dds {
-        what,
-        reason: reason.to_string(),
-    }
+    move |reason| BusError::Dds { what, reason: reason.to_string() }
 }
 
 impl DdsTransport {
@@ -67,11 +64,7 @@ impl DdsTransport {
     ///
     /// # Errors
     /// When there are no sockets to be had, or the name is refused.
-    pub(crate) fn join(
-        environment: &Environment,
-        name: &NodeName,
-        log_id: u64,
-    ) -> Result<DdsTransport, BusError> {
+    pub(crate) fn join(environment: &Environment, name: &NodeName, log_id: u64) -> Result<DdsTransport, BusError> {
         let what = format!("join the DDS domain {}", environment.domain);
         let mut builder = DomainParticipantBuilder::new(environment.domain);
         if environment.range != Range::Subnet {
@@ -79,29 +72,15 @@ impl DdsTransport {
         }
         let participant = builder.build().map_err(|error| refused(&what)(&error))?;
         let none = QosPolicies::qos_none();
-        let publisher = participant
-            .create_publisher(&none)
-            .map_err(|error| refused(&what)(&error))?;
-        let subscriber = participant
-            .create_subscriber(&none)
-            .map_err(|error| refused(&what)(&error))?;
-        let info_qos = policies::for_writer(&QosProfile::new(
-            Reliability::Reliable,
-            Durability::TransientLocal,
-            1,
-        ));
+        let publisher = participant.create_publisher(&none).map_err(|error| refused(&what)(&error))?;
+        let subscriber = participant.create_subscriber(&none).map_err(|error| refused(&what)(&error))?;
+        let info_qos = policies::for_writer(&QosProfile::new(Reliability::Reliable, Durability::TransientLocal, 1));
         let info_topic = participant
-            .create_topic(
-                node_info::TOPIC.to_owned(),
-                node_info::TYPE.to_owned(),
-                &info_qos,
-                TopicKind::NoKey,
-            )
+            .create_topic(node_info::TOPIC.to_owned(), node_info::TYPE.to_owned(), &info_qos, TopicKind::NoKey)
             .map_err(|error| refused(&what)(&error))?;
-        let info = publisher
-            .create_datawriter_no_key(&info_topic, Some(info_qos))
-            .map_err(|error| refused(&what)(&error))?;
-        let view = Arc::new(GraphView::default());
+        let info =
+            publisher.create_datawriter_no_key(&info_topic, Some(info_qos)).map_err(|error| refused(&what)(&error))?;
+        let view = Arc::new(GraphView::new());
         let shared = Arc::new(Shared {
             participant,
             publisher,
@@ -112,15 +91,9 @@ impl DdsTransport {
             info,
         });
         let executor = Arc::new(Executor::new());
-        executor
-            .spawn(discovery::watch(
-                shared.participant.clone(),
-                Arc::clone(&shared.view),
-            ))
-            .detach();
-        executor
-            .spawn(follow_nodes(&shared, &info_topic).map_err(|error| refused(&what)(&error))?)
-            .detach();
+        executor.spawn(discovery::watch(shared.participant.clone(), Arc::clone(&shared.view))).detach();
+        executor.spawn(discovery::report(Arc::clone(&shared.view))).detach();
+        executor.spawn(follow_nodes(&shared, &info_topic).map_err(|error| refused(&what)(&error))?).detach();
         let (stop, stopped) = channel::bounded(1);
         let running = Arc::clone(&executor);
         let thread = std::thread::Builder::new()
@@ -130,18 +103,9 @@ impl DdsTransport {
                 // Either way of ending means that the transport is gone.
                 let _ = smol::block_on(running.run(stopped.recv()));
             })
-            .map_err(|source| BusError::System {
-                what: "a thread",
-                source,
-            })?;
+            .map_err(|source| BusError::System { what: "a thread", source })?;
         shared.announce();
-        Ok(DdsTransport {
-            shared,
-            executor,
-            sinks: Mutex::new(Vec::new()),
-            stop,
-            thread: Some(thread),
-        })
+        Ok(DdsTransport { shared, executor, sinks: Mutex::new(Vec::new()), stop, thread: Some(thread) })
     }
 }
 
@@ -151,17 +115,10 @@ fn follow_nodes(
     topic: &Topic,
 ) -> Result<impl Future<Output = ()> + Send + use<>, ros2_client::dds::rustdds::dds::CreateError> {
     use futures::StreamExt;
-    let qos = policies::for_reader(&QosProfile::new(
-        Reliability::Reliable,
-        Durability::TransientLocal,
-        0,
-    ));
+    let qos = policies::for_reader(&QosProfile::new(Reliability::Reliable, Durability::TransientLocal, 0));
     let reader = shared
         .subscriber
-        .create_simple_datareader_no_key::<ParticipantInfo, CDRDeserializerAdapter<_>>(
-            topic,
-            Some(qos),
-        )?;
+        .create_simple_datareader_no_key::<ParticipantInfo, CDRDeserializerAdapter<_>>(topic, Some(qos))?;
     let view = Arc::clone(&shared.view);
     Ok(async move {
         let mut infos = std::pin::pin!(reader.as_async_stream());
@@ -188,14 +145,9 @@ impl Shared {
 
     /// Tells the graph which endpoints the node has, so that `ros2 node info` shows them.
     fn announce(&self) {
-        let (writers, readers): (Vec<_>, Vec<_>) = self
-            .view
-            .local()
-            .into_iter()
-            .partition(|(_, endpoint)| endpoint.writes);
-        let gids = |endpoints: Vec<(Gid, LocalEndpoint)>| {
-            endpoints.into_iter().map(|(gid, _)| gid).collect()
-        };
+        let (writers, readers): (Vec<_>, Vec<_>) =
+            self.view.local().into_iter().partition(|(_, endpoint)| endpoint.writes);
+        let gids = |endpoints: Vec<(Gid, LocalEndpoint)>| endpoints.into_iter().map(|(gid, _)| gid).collect();
         let info = ParticipantInfo {
             gid: self.participant.guid().to_bytes(),
             nodes: vec![NodeInfo {
@@ -211,12 +163,7 @@ impl Shared {
     }
 
     /// The topic of an endpoint.
-    pub(crate) fn topic(
-        &self,
-        dds_name: &str,
-        dds_type: &str,
-        qos: &QosPolicies,
-    ) -> Result<Topic, BusError> {
+    pub(crate) fn topic(&self, dds_name: &str, dds_type: &str, qos: &QosPolicies) -> Result<Topic, BusError> {
         self.participant
             .create_topic(dds_name.to_owned(), dds_type.to_owned(), qos, TopicKind::NoKey)
             .map_err(|error| refused(format!("make the topic {dds_name}"))(&error))
@@ -233,19 +180,12 @@ impl Shared {
 }
 
 impl Transport for DdsTransport {
-    fn publisher(
-        &self,
-        topic: &str,
-        type_name: &str,
-        qos: &QosProfile,
-    ) -> Result<Arc<dyn Sink>, BusError> {
+    fn publisher(&self, topic: &str, type_name: &str, qos: &QosProfile) -> Result<Arc<dyn Sink>, BusError> {
         let dds_type = mangle::type_name(type_name)?;
         let sink = Arc::new(DdsSink::new(&self.shared, topic, &dds_type, qos)?);
         for reader in self.shared.participant.discovered_readers() {
             let data = &reader.subscription_topic_data;
-            self.shared
-                .view
-                .check_type(data.key().to_bytes(), data.topic_name(), data.type_name(), false);
+            self.shared.view.check_type(data.key().to_bytes(), data.topic_name(), data.type_name(), false);
         }
         let mut sinks = self.sinks.lock().unwrap_or_else(PoisonError::into_inner);
         sinks.retain(|sink| sink.strong_count() > 0);
@@ -253,20 +193,12 @@ impl Transport for DdsTransport {
         Ok(sink)
     }
 
-    fn subscribe(
-        &self,
-        topic: &str,
-        type_name: &str,
-        qos: &QosProfile,
-        deliver: Deliver,
-    ) -> Result<Guard, BusError> {
+    fn subscribe(&self, topic: &str, type_name: &str, qos: &QosProfile, deliver: Deliver) -> Result<Guard, BusError> {
         let dds_type = mangle::type_name(type_name)?;
         let guard = reader::subscribe(&self.shared, &self.executor, topic, &dds_type, qos, deliver)?;
         for writer in self.shared.participant.discovered_writers() {
             let data = &writer.publication_topic_data;
-            self.shared
-                .view
-                .check_type(data.key.to_bytes(), &data.topic_name, &data.type_name, true);
+            self.shared.view.check_type(data.key.to_bytes(), &data.topic_name, &data.type_name, true);
         }
         Ok(guard)
     }
@@ -279,11 +211,7 @@ impl Transport for DdsTransport {
         let mut topics = BTreeMap::new();
         let own_node = Some(self.shared.node.full());
         for (gid, local) in self.shared.view.local() {
-            let info = EndpointInfo {
-                node: own_node.clone(),
-                gid,
-                qos: local.qos,
-            };
+            let info = EndpointInfo { node: own_node.clone(), gid, qos: local.qos };
             add_endpoint(&mut topics, &local.topic, &local.type_name, info, local.writes);
         }
         let own = self.shared.participant.guid().to_bytes();
@@ -292,11 +220,8 @@ impl Transport for DdsTransport {
             let data = &writer.publication_topic_data;
             let gid = data.key.to_bytes();
             if !is_own(&gid) {
-                let info = EndpointInfo {
-                    node: self.shared.view.owner(gid),
-                    gid,
-                    qos: policies::to_profile(&data.qos()),
-                };
+                let info =
+                    EndpointInfo { node: self.shared.view.owner(gid), gid, qos: policies::to_profile(&data.qos()) };
                 add_endpoint(&mut topics, &data.topic_name, &data.type_name, info, true);
             }
         }
@@ -304,11 +229,8 @@ impl Transport for DdsTransport {
             let data = &reader.subscription_topic_data;
             let gid = data.key().to_bytes();
             if !is_own(&gid) {
-                let info = EndpointInfo {
-                    node: self.shared.view.owner(gid),
-                    gid,
-                    qos: policies::to_profile(&data.qos()),
-                };
+                let info =
+                    EndpointInfo { node: self.shared.view.owner(gid), gid, qos: policies::to_profile(&data.qos()) };
                 add_endpoint(&mut topics, data.topic_name(), data.type_name(), info, false);
             }
         }
@@ -322,13 +244,8 @@ impl Transport for DdsTransport {
     }
 
     fn flush(&self, limit: Duration) {
-        let sinks: Vec<_> = self
-            .sinks
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .iter()
-            .filter_map(Weak::upgrade)
-            .collect();
+        let sinks: Vec<_> =
+            self.sinks.lock().unwrap_or_else(PoisonError::into_inner).iter().filter_map(Weak::upgrade).collect();
         let mut left = limit;
         for sink in sinks {
             left = sink.wait_for_acknowledgments(left);
@@ -348,15 +265,13 @@ fn add_endpoint(
         return;
     };
     let type_name = mangle::ros_type(dds_type);
-    let topic = topics
-        .entry((name.to_owned(), type_name.clone()))
-        .or_insert_with(|| TopicInfo {
-            name: name.to_owned(),
-            type_name,
-            qos: info.qos.clone(),
-            publishers: Vec::new(),
-            subscriptions: Vec::new(),
-        });
+    let topic = topics.entry((name.to_owned(), type_name.clone())).or_insert_with(|| TopicInfo {
+        name: name.to_owned(),
+        type_name,
+        qos: info.qos.clone(),
+        publishers: Vec::new(),
+        subscriptions: Vec::new(),
+    });
     if writes {
         topic.publishers.push(info);
     } else {

@@ -2,10 +2,7 @@
 
 use ros2_client::dds::rustdds::{
     Duration as DdsDuration, QosPolicies, QosPolicyBuilder, Timestamp,
-    policy::{
-        Deadline, Durability as DdsDurability, History, Lifespan, Liveliness,
-        Reliability as DdsReliability,
-    },
+    policy::{Deadline, Durability as DdsDurability, History, Lifespan, Liveliness, Reliability as DdsReliability},
 };
 
 use apprentice_msgs::builtin_interfaces::Time;
@@ -18,26 +15,20 @@ use crate::{
 /// How long a reliable write waits for readers that lag, before the sample is given up.
 const MAX_BLOCKING: DdsDuration = DdsDuration::from_millis(2000);
 
-/// Samples that a reader keeps until the node takes them, where the profile asks for fewer. A burst must not be lost
-/// while the reader's thread is busy, and RustDDS loses samples with `KeepAll`.
-const READER_DEPTH: usize = 10_000;
-
-/// The same for late joiners' history, when the depth is unknown.
-const HISTORY_DEPTH: usize = 1000;
+/// Samples that a reader keeps when the profile does not say how many.
+const UNKNOWN_DEPTH: usize = 1000;
 
 /// What a writer offers.
 pub(crate) fn for_writer(profile: &QosProfile) -> QosPolicies {
     build(profile, profile.depth.max(1))
 }
 
-/// What a reader asks for.
+/// What a reader asks for. Never `KeepAll`: RustDDS then keeps 64 samples only, and loses the rest of a burst.
 pub(crate) fn for_reader(profile: &QosProfile) -> QosPolicies {
-    let depth = match (profile.reliability, profile.durability) {
-        (Reliability::Reliable, Durability::Volatile) => profile.depth.max(READER_DEPTH),
-        (_, Durability::TransientLocal) if profile.depth == 0 => HISTORY_DEPTH,
-        _ => profile.depth.max(1),
-    };
-    build(profile, depth)
+    match profile.depth {
+        0 => build(profile, UNKNOWN_DEPTH),
+        depth => build(profile, depth),
+    }
 }
 
 /// The policies with a depth.
@@ -49,25 +40,17 @@ fn build(profile: &QosProfile, depth: usize) -> QosPolicies {
         })
         .reliability(match profile.reliability {
             Reliability::BestEffort => DdsReliability::BestEffort,
-            Reliability::Reliable => DdsReliability::Reliable {
-                max_blocking_time: MAX_BLOCKING,
-            },
+            Reliability::Reliable => DdsReliability::Reliable { max_blocking_time: MAX_BLOCKING },
         })
-        .history(History::KeepLast {
-            depth: i32::try_from(depth).unwrap_or(i32::MAX),
-        });
+        .history(History::KeepLast { depth: i32::try_from(depth).unwrap_or(i32::MAX) });
     if let Some(deadline) = profile.deadline {
         policies = policies.deadline(Deadline(DdsDuration::from_std(deadline)));
     }
     if let Some(lifespan) = profile.lifespan {
-        policies = policies.lifespan(Lifespan {
-            duration: DdsDuration::from_std(lifespan),
-        });
+        policies = policies.lifespan(Lifespan { duration: DdsDuration::from_std(lifespan) });
     }
     if let Some(lease) = profile.liveliness_lease {
-        policies = policies.liveliness(Liveliness::Automatic {
-            lease_duration: DdsDuration::from_std(lease),
-        });
+        policies = policies.liveliness(Liveliness::Automatic { lease_duration: DdsDuration::from_std(lease) });
     }
     policies.build()
 }
@@ -75,8 +58,7 @@ fn build(profile: &QosProfile, depth: usize) -> QosPolicies {
 /// A profile from what discovery tells; `depth` is 0 because discovery does not tell it.
 pub(crate) fn to_profile(policies: &QosPolicies) -> QosProfile {
     let finite = |duration: DdsDuration| {
-        (duration != DdsDuration::INFINITE && duration != DdsDuration::ZERO)
-            .then(|| duration.to_std())
+        (duration != DdsDuration::INFINITE && duration != DdsDuration::ZERO).then(|| duration.to_std())
     };
     QosProfile {
         reliability: match policies.reliability() {
@@ -93,9 +75,7 @@ pub(crate) fn to_profile(policies: &QosPolicies) -> QosProfile {
         },
         deadline: policies.deadline().and_then(|deadline| finite(deadline.0)),
         lifespan: policies.lifespan().and_then(|lifespan| finite(lifespan.duration)),
-        liveliness_lease: policies
-            .liveliness()
-            .and_then(|liveliness| finite(liveliness.duration())),
+        liveliness_lease: policies.liveliness().and_then(|liveliness| finite(liveliness.duration())),
     }
 }
 
@@ -108,9 +88,7 @@ pub(crate) fn to_time(timestamp: Timestamp) -> Option<Time> {
     let seconds = i64::try_from(ticks >> 32).ok()?;
     // Ticks are 2^-32 s; rounded to the nearest nanosecond.
     let nanoseconds = ((ticks & 0xffff_ffff) * 1_000_000_000 + (1 << 31)) >> 32;
-    Some(clock::to_time(
-        seconds * 1_000_000_000 + i64::try_from(nanoseconds).ok()?,
-    ))
+    Some(clock::to_time(seconds * 1_000_000_000 + i64::try_from(nanoseconds).ok()?))
 }
 
 #[cfg(test)]
@@ -128,14 +106,15 @@ mod tests {
     }
 
     #[test]
-    fn readers_are_deep_and_never_keep_all() {
+    fn readers_never_keep_all() {
         for qos in [Qos::Stream, Qos::Event, Qos::State, Qos::Log] {
             assert!(matches!(
                 for_reader(&qos.profile()).history(),
                 Some(History::KeepLast { depth }) if depth >= 1
             ));
         }
-        assert_eq!(to_profile(&for_reader(&Qos::Event.profile())).depth, READER_DEPTH);
+        let unknown = QosProfile::new(Reliability::Reliable, Durability::Volatile, 0);
+        assert_eq!(to_profile(&for_reader(&unknown)).depth, UNKNOWN_DEPTH);
     }
 
     #[test]

@@ -39,11 +39,7 @@ pub(crate) struct ReaderGuard {
 impl ReaderGuard {
     /// Keeps a task and the endpoints that it serves.
     pub(crate) fn new(shared: &Arc<Shared>, gids: Vec<Gid>, task: Task<()>) -> ReaderGuard {
-        ReaderGuard {
-            shared: Arc::clone(shared),
-            gids,
-            _task: task,
-        }
+        ReaderGuard { shared: Arc::clone(shared), gids, _task: task }
     }
 }
 
@@ -67,15 +63,7 @@ pub(crate) fn subscribe(
     let dds_name = mangle::topic(topic);
     let reader = make(shared, &dds_name, dds_type, qos)?;
     let gid = reader.guid().to_bytes();
-    shared.add(
-        gid,
-        LocalEndpoint {
-            topic: dds_name,
-            type_name: dds_type.to_owned(),
-            qos: qos.clone(),
-            writes: false,
-        },
-    );
+    shared.add(gid, LocalEndpoint { topic: dds_name, type_name: dds_type.to_owned(), qos: qos.clone(), writes: false });
     let mut writers = WriterTypes::new(shared, dds_type);
     let topic = topic.to_owned();
     let task = executor.spawn(async move {
@@ -104,12 +92,7 @@ pub(crate) fn subscribe(
 }
 
 /// Makes a reader.
-pub(crate) fn make(
-    shared: &Shared,
-    dds_name: &str,
-    dds_type: &str,
-    qos: &QosProfile,
-) -> Result<BytesReader, BusError> {
+pub(crate) fn make(shared: &Shared, dds_name: &str, dds_type: &str, qos: &QosProfile) -> Result<BytesReader, BusError> {
     let policies = policies::for_reader(qos);
     let topic = shared.topic(dds_name, dds_type, &policies)?;
     shared
@@ -121,8 +104,7 @@ pub(crate) fn make(
 /// A message with its times.
 fn to_raw(message: DeserializedCacheChange<RawCdr>) -> RawMessage {
     RawMessage {
-        received: policies::to_time(message.receive_instant)
-            .unwrap_or_else(|| clock::to_time(clock::system_ns())),
+        received: policies::to_time(message.receive_instant).unwrap_or_else(|| clock::to_time(clock::system_ns())),
         source_timestamp: message.source_timestamp().and_then(policies::to_time),
         cdr: message.into_value().into_cdr(),
     }
@@ -138,11 +120,7 @@ struct WriterTypes {
 impl WriterTypes {
     /// Nothing known yet.
     fn new(shared: &Arc<Shared>, dds_type: &str) -> WriterTypes {
-        WriterTypes {
-            shared: Arc::clone(shared),
-            dds_type: dds_type.to_owned(),
-            known: HashMap::new(),
-        }
+        WriterTypes { shared: Arc::clone(shared), dds_type: dds_type.to_owned(), known: HashMap::new() }
     }
 
     /// Whether a writer has the reader's type; one that discovery does not know (this node itself) has.
@@ -150,10 +128,7 @@ impl WriterTypes {
         if let Some(fits) = self.known.get(&writer) {
             return *fits;
         }
-        let fits = self
-            .shared
-            .writer_type(writer.to_bytes())
-            .is_none_or(|other| other == self.dds_type);
+        let fits = self.shared.writer_type(writer.to_bytes()).is_none_or(|other| other == self.dds_type);
         if self.known.len() > 1000 {
             self.known.clear();
         }

@@ -7,8 +7,7 @@ use std::sync::Arc;
 
 use futures::StreamExt;
 use ros2_client::dds::rustdds::{
-    RTPSEntity, SampleIdentity, SequenceNumber, Timestamp, WriteOptionsBuilder,
-    no_key::DataWriter,
+    RTPSEntity, SampleIdentity, SequenceNumber, Timestamp, WriteOptionsBuilder, no_key::DataWriter,
 };
 use smol::Executor;
 
@@ -54,12 +53,7 @@ pub(crate) fn serve(
         .create_datawriter_no_key(&topic, Some(policies))
         .map_err(|error| refused(format!("serve {name}"))(&error))?;
     let gids = vec![reader.guid().to_bytes(), writer.guid().to_bytes()];
-    let endpoint = |topic, type_name, writes| LocalEndpoint {
-        topic,
-        type_name,
-        qos: qos.clone(),
-        writes,
-    };
+    let endpoint = |topic, type_name, writes| LocalEndpoint { topic, type_name, qos: qos.clone(), writes };
     shared.add(gids[0], endpoint(request_topic, request_type, false));
     shared.add(gids[1], endpoint(reply_topic, reply_type, true));
     let mapping = shared.mapping;
@@ -70,20 +64,14 @@ pub(crate) fn serve(
             let Ok(request) = request else { continue };
             let identity = identity(
                 request.related_sample_identity(),
-                SampleIdentity {
-                    writer_guid: request.writer_guid(),
-                    sequence_number: request.sequence_number,
-                },
+                SampleIdentity { writer_guid: request.writer_guid(), sequence_number: request.sequence_number },
             );
-            let Some(reply) = answer(mapping, &request.into_value().into_cdr(), &mut handler)
-                .and_then(RawCdr::to_send)
+            let Some(reply) = answer(mapping, &request.into_value().into_cdr(), &mut handler).and_then(RawCdr::to_send)
             else {
                 continue;
             };
-            let options = WriteOptionsBuilder::new()
-                .source_timestamp(Timestamp::now())
-                .related_sample_identity(identity)
-                .build();
+            let options =
+                WriteOptionsBuilder::new().source_timestamp(Timestamp::now()).related_sample_identity(identity).build();
             if let Err(error) = writer.write_with_options(reply, options) {
                 log::warn!("{name}: an answer could not be sent: {error}");
             }
@@ -97,10 +85,9 @@ pub(crate) fn serve(
 fn identity(inline: Option<SampleIdentity>, sample: SampleIdentity) -> SampleIdentity {
     match inline {
         None => sample,
-        Some(inline) if inline.sequence_number == SequenceNumber::UNKNOWN => SampleIdentity {
-            writer_guid: inline.writer_guid,
-            sequence_number: sample.sequence_number,
-        },
+        Some(inline) if inline.sequence_number == SequenceNumber::UNKNOWN => {
+            SampleIdentity { writer_guid: inline.writer_guid, sequence_number: sample.sequence_number }
+        }
         Some(inline) => inline,
     }
 }

@@ -50,20 +50,9 @@ impl DdsSink {
         let gid = writer.guid().to_bytes();
         shared.add(
             gid,
-            LocalEndpoint {
-                topic: dds_name,
-                type_name: dds_type.to_owned(),
-                qos: qos.clone(),
-                writes: true,
-            },
+            LocalEndpoint { topic: dds_name, type_name: dds_type.to_owned(), qos: qos.clone(), writes: true },
         );
-        Ok(DdsSink {
-            shared: Arc::clone(shared),
-            writer,
-            gid,
-            topic: topic.to_owned(),
-            given_up: AtomicU64::new(0),
-        })
+        Ok(DdsSink { shared: Arc::clone(shared), writer, gid, topic: topic.to_owned(), given_up: AtomicU64::new(0) })
     }
 
     /// Waits until every reader has acknowledged everything, at most `limit`. Returns what is left of the limit.
@@ -85,10 +74,8 @@ impl Sink for DdsSink {
         let Some(message) = RawCdr::to_send(cdr) else {
             return Err(BusError::Encoding {
                 topic: self.topic.clone(),
-                got: got.map_or_else(
-                    || "no header".to_owned(),
-                    |(first, second)| format!("{first:#04x} {second:#04x}"),
-                ),
+                got: got
+                    .map_or_else(|| "no header".to_owned(), |(first, second)| format!("{first:#04x} {second:#04x}")),
             });
         };
         match self.writer.write(message, Some(Timestamp::now())) {
@@ -104,10 +91,7 @@ impl Sink for DdsSink {
                 }
                 Ok(())
             }
-            Err(error) => Err(BusError::Publish {
-                topic: self.topic.clone(),
-                reason: error.to_string(),
-            }),
+            Err(error) => Err(BusError::Publish { topic: self.topic.clone(), reason: error.to_string() }),
         }
     }
 

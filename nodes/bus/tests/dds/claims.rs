@@ -2,9 +2,7 @@
 
 use std::{process::Command, time::Duration};
 
-use apprentice_msgs::{
-    Message, msg::Heartbeat, rosgraph_msgs::Clock, std_msgs::String as Text, to_cdr,
-};
+use apprentice_msgs::{Message, msg::Heartbeat, rosgraph_msgs::Clock, std_msgs::String as Text, to_cdr};
 use bus::{Durability, Next, Qos, QosProfile, Reliability};
 
 use crate::{
@@ -16,8 +14,7 @@ pub fn peer_process() {
     let _peer = Peer::start();
     let mut node = open(&["-r", "__node:=asker"]);
     let ping = node.publisher::<Text>("ping", Qos::Event).expect("a publisher");
-    node.subscribe("pong", Qos::Event, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    node.subscribe("pong", Qos::Event, |message: Text| Event::Text(message.data)).expect("a subscription");
     until("the peer listens", || ping.subscriptions() == 1);
     // The peer's publisher may be matched a little later than its subscription.
     let mut index = 0;
@@ -32,10 +29,8 @@ pub fn peer_process() {
         _ => None,
     });
     let mut late = open(&["-r", "__node:=late"]);
-    late.subscribe("peer_state", Qos::State, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
-    late.subscribe("peer_log", Qos::Log, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    late.subscribe("peer_state", Qos::State, |message: Text| Event::Text(message.data)).expect("a subscription");
+    late.subscribe("peer_log", Qos::Log, |message: Text| Event::Text(message.data)).expect("a subscription");
     let (mut logs, mut state) = (Vec::new(), String::new());
     wait_for(&mut late, "state and log", |event| {
         match event {
@@ -51,9 +46,7 @@ pub fn peer_process() {
 pub fn burst() {
     const N: usize = 20_000;
     let mut receiver = open(&["-r", "__node:=receiver"]);
-    receiver
-        .subscribe("burst", Qos::Event, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    receiver.subscribe("burst", Qos::Event, |message: Text| Event::Text(message.data)).expect("a subscription");
     let mut sender = open(&["-r", "__node:=sender"]);
     let burst = sender.publisher::<Text>("burst", Qos::Event).expect("a publisher");
     until("the two are matched", || burst.subscriptions() == 1);
@@ -76,9 +69,7 @@ pub fn burst() {
 
 pub fn large() {
     let mut receiver = open(&["-r", "__node:=receiver"]);
-    receiver
-        .subscribe("large", Qos::State, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    receiver.subscribe("large", Qos::State, |message: Text| Event::Text(message.data)).expect("a subscription");
     let mut sender = open(&["-r", "__node:=sender"]);
     let large = sender.publisher::<Text>("large", Qos::State).expect("a publisher");
     let data = "0123456789".repeat(100_000);
@@ -92,13 +83,9 @@ pub fn large() {
 
 pub fn malformed() {
     let mut receiver = open(&["-r", "__node:=receiver"]);
-    receiver
-        .subscribe("bad", Qos::Event, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    receiver.subscribe("bad", Qos::Event, |message: Text| Event::Text(message.data)).expect("a subscription");
     let mut sender = open(&["-r", "__node:=sender"]);
-    let raw = sender
-        .publisher_raw("bad", Text::TYPE, Qos::Event.profile())
-        .expect("a publisher");
+    let raw = sender.publisher_raw("bad", Text::TYPE, Qos::Event.profile()).expect("a publisher");
     until("the two are matched", || raw.subscriptions() == 1);
     std::thread::sleep(Duration::from_millis(200));
     for bytes in [&[0, 1, 0, 0][..], &[0, 1, 0, 0, 255, 255, 255, 127, 65, 66, 67]] {
@@ -115,10 +102,9 @@ pub fn malformed() {
 /// Waits for a warning of the node `warned` that holds all `words`.
 fn wait_for_warning(watcher: &mut bus::Bus<Event>, words: &[&str]) {
     wait_for(watcher, &format!("a warning with {words:?}"), |event| match event {
-        Event::Log(log) => words
-            .iter()
-            .all(|word| log.msg.contains(word) && log.name == "apprentice.warned")
-            .then_some(()),
+        Event::Log(log) => {
+            words.iter().all(|word| log.msg.contains(word) && log.name == "apprentice.warned").then_some(())
+        }
         _ => None,
     });
 }
@@ -129,18 +115,11 @@ pub fn foreign_type() {
     let mut sender = open(&["-r", "__node:=sender"]);
     let beats = sender.publisher::<Heartbeat>("mixed", Qos::State).expect("a publisher");
     let mut warned = open(&["-r", "__node:=warned"]);
-    warned
-        .subscribe("mixed", Qos::State, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
-    beats
-        .publish(&Heartbeat {
-            node: "x".to_owned(),
-            ..Heartbeat::default()
-        })
-        .expect("published");
+    warned.subscribe("mixed", Qos::State, |message: Text| Event::Text(message.data)).expect("a subscription");
+    beats.publish(&Heartbeat { node: "x".to_owned(), ..Heartbeat::default() }).expect("published");
     wait_for_warning(
         &mut watcher,
-        &["/apprentice/mixed", "apprentice_msgs/msg/Heartbeat", "std_msgs/msg/String"],
+        &["/apprentice/mixed: /apprentice/sender", "apprentice_msgs/msg/Heartbeat", "std_msgs/msg/String"],
     );
     assert_eq!(warned.next_timeout(Duration::from_millis(500)), Next::Timeout);
 }
@@ -151,10 +130,8 @@ pub fn qos_mismatch() {
     let mut sender = open(&["-r", "__node:=sender"]);
     let _stream = sender.publisher::<Text>("weak", Qos::Stream).expect("a publisher");
     let mut warned = open(&["-r", "__node:=warned"]);
-    warned
-        .subscribe("weak", Qos::State, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
-    wait_for_warning(&mut watcher, &["/apprentice/weak", "reliability", "BestEffort", "Reliable"]);
+    warned.subscribe("weak", Qos::State, |message: Text| Event::Text(message.data)).expect("a subscription");
+    wait_for_warning(&mut watcher, &["/apprentice/weak: /apprentice/sender", "reliability", "BestEffort", "Reliable"]);
 }
 
 pub fn raw_bytes() {
@@ -163,9 +140,8 @@ pub fn raw_bytes() {
     let typed = sender.publisher::<Text>("recorded", Qos::Log).expect("a publisher");
     typed.publish(&text("one")).expect("published");
     let mut recorder = open(&["-r", "__node:=recorder"]);
-    let _subscription = recorder
-        .subscribe_raw("/apprentice/recorded", Text::TYPE, qos.clone(), Event::Raw)
-        .expect("a subscription");
+    let _subscription =
+        recorder.subscribe_raw("/apprentice/recorded", Text::TYPE, qos.clone(), Event::Raw).expect("a subscription");
     let raw = wait_for(&mut recorder, "a recording", |event| match event {
         Event::Raw(raw) => Some(raw),
         _ => None,
@@ -174,9 +150,7 @@ pub fn raw_bytes() {
     assert!(raw.source_timestamp.is_some());
     let replayed = recorder.publisher_raw("/replayed", Text::TYPE, qos).expect("a publisher");
     replayed.publish(&raw.cdr).expect("published");
-    sender
-        .subscribe("/replayed", Qos::Log, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    sender.subscribe("/replayed", Qos::Log, |message: Text| Event::Text(message.data)).expect("a subscription");
     let got = wait_for(&mut sender, "the replay", |event| match event {
         Event::Text(data) => Some(data),
         _ => None,
@@ -223,10 +197,7 @@ pub fn sigterm() {
     let mut node = open(&["-r", "__node:=watcher"]);
     let ping = node.publisher::<Text>("ping", Qos::Event).expect("a publisher");
     until("the peer listens", || ping.subscriptions() == 1);
-    let sent = Command::new("kill")
-        .args(["-TERM", &peer.0.id().to_string()])
-        .status()
-        .expect("kill runs");
+    let sent = Command::new("kill").args(["-TERM", &peer.0.id().to_string()]).status().expect("kill runs");
     assert!(sent.success());
     let status = peer.0.wait().expect("the peer ends");
     assert_eq!(status.code(), Some(0));

@@ -3,9 +3,7 @@
 use std::time::Instant;
 
 use apprentice_msgs::{rcl_interfaces::Log, std_msgs::String as Text};
-use bus::{
-    Arguments, Bus, Graph, Next, NodeSettings, ParameterSpec, RawMessage, Range,
-};
+use bus::{Arguments, Bus, Graph, Next, NodeSettings, ParameterSpec, Range, RawMessage};
 use serde::{Deserialize, Serialize};
 
 use crate::PATIENCE;
@@ -25,11 +23,8 @@ impl Default for Settings {
 impl NodeSettings for Settings {
     const NODE: &'static str = "tested";
     const ABOUT: &'static str = "A node under test.";
-    const PARAMETERS: &'static [ParameterSpec] = &[ParameterSpec {
-        name: "speed",
-        about: "metres per second",
-        range: Range::Float { min: 0.0, max: 1.0 },
-    }];
+    const PARAMETERS: &'static [ParameterSpec] =
+        &[ParameterSpec { name: "speed", about: "metres per second", range: Range::Float { min: 0.0, max: 1.0 } }];
 }
 
 /// What reaches a node under test.
@@ -51,9 +46,7 @@ pub fn open(args: &[&str]) -> Bus<Event> {
 
 /// A text message.
 pub fn text(data: &str) -> Text {
-    Text {
-        data: data.to_owned(),
-    }
+    Text { data: data.to_owned() }
 }
 
 /// Waits for an event that `pick` takes; others are thrown away.

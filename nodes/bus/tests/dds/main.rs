@@ -35,11 +35,7 @@ fn start() -> ExitCode {
         .env_remove("RMW_IMPLEMENTATION")
         .status()
         .expect("this program starts again");
-    if status.success() {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// This program in another role.
@@ -55,12 +51,7 @@ pub struct Peer(pub Child);
 impl Peer {
     /// Starts it.
     pub fn start() -> Peer {
-        Peer(
-            this_program("peer")
-                .stderr(Stdio::inherit())
-                .spawn()
-                .expect("the peer starts"),
-        )
+        Peer(this_program("peer").stderr(Stdio::inherit()).spawn().expect("the peer starts"))
     }
 }
 

@@ -13,8 +13,7 @@ pub fn run() -> ExitCode {
     let state = bus.publisher::<Text>("peer_state", Qos::State).expect("a publisher");
     let history = bus.publisher::<Text>("peer_log", Qos::Log).expect("a publisher");
     let pong = bus.publisher::<Text>("pong", Qos::Event).expect("a publisher");
-    bus.subscribe("ping", Qos::Event, |message: Text| Event::Text(message.data))
-        .expect("a subscription");
+    bus.subscribe("ping", Qos::Event, |message: Text| Event::Text(message.data)).expect("a subscription");
     for index in 0..5 {
         state.publish(&text(&format!("state {index}"))).expect("published");
         history.publish(&text(&format!("log {index}"))).expect("published");

@@ -4,8 +4,7 @@ use std::time::{Duration, Instant};
 
 use futures::FutureExt;
 use ros2_client::{
-    Context, Message, Name, Node, NodeName, NodeOptions, QosProfile, ServiceMapping,
-    ServiceTypeName,
+    Context, Message, Name, Node, NodeName, NodeOptions, QosProfile, ServiceMapping, ServiceTypeName,
     dds::rustdds::DomainParticipantBuilder,
 };
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -87,10 +86,7 @@ fn check(name: &str, mapping: ServiceMapping) {
         mapping,
         &service("list_parameters"),
         "ListParameters",
-        ListRequest {
-            prefixes: Vec::new(),
-            depth: 0,
-        },
+        ListRequest { prefixes: Vec::new(), depth: 0 },
     );
     assert_eq!(listed.names, ["speed", "use_sim_time", "service_mapping"]);
     assert!(listed.prefixes.is_empty());
@@ -99,9 +95,7 @@ fn check(name: &str, mapping: ServiceMapping) {
         mapping,
         &service("get_parameters"),
         "GetParameters",
-        Names {
-            names: vec!["speed".to_owned(), "service_mapping".to_owned()],
-        },
+        Names { names: vec!["speed".to_owned(), "service_mapping".to_owned()] },
     );
     assert_eq!((read.values[0].kind, read.values[0].double), (3, 0.25));
     assert_eq!(read.values[1].text, name);
@@ -110,9 +104,7 @@ fn check(name: &str, mapping: ServiceMapping) {
         mapping,
         &service("set_parameters"),
         "SetParameters",
-        SetRequest {
-            parameters: vec![("speed".to_owned(), Value::default())],
-        },
+        SetRequest { parameters: vec![("speed".to_owned(), Value::default())] },
     );
     assert!(!set.results[0].0 && set.results[0].1.contains("read-only"), "{set:?}");
 }
