@@ -16,6 +16,8 @@ use std::time::Duration;
 const MAX_LOG_BYTES: u64 = 16 << 20;
 /// After a process has ended, its last lines have this long to be read.
 const LAST_WORDS: Duration = Duration::from_millis(300);
+/// The page's address holds a secret and stays out of log files; bringup shows it itself.
+const PAGE_ADDRESS: &str = "operator page: ";
 const STACK_BYTES: usize = 256 << 10;
 
 /// Where a node's lines go: all to its log file, those that matter to the terminal too.
@@ -37,6 +39,9 @@ impl NodeLog {
     }
 
     fn take(&self, line: &str) {
+        if line.starts_with(PAGE_ADDRESS) {
+            return;
+        }
         let mut held = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         if held.as_ref().is_some_and(|(_, bytes)| *bytes > MAX_LOG_BYTES) {
             *held = std::fs::rename(&self.path, self.path.with_extension("log.1")).and_then(|()| open(&self.path)).ok();

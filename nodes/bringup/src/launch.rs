@@ -94,6 +94,7 @@ fn own_parameters(node: &NodeInfo, settings: &Settings, session: &Session) -> St
         ("output", path("bag")),
         ("port", settings.port.to_string()),
         ("url_file", path("page-url")),
+        ("token_file", path("page-token")),
     ] {
         if node.has(parameter) {
             lines += &format!("    {parameter}: {value}\n");

@@ -265,13 +265,13 @@ impl Suite {
 
     fn interrupt(&mut self, signal: i32) {
         if self.outcome.is_some() {
-            self.say(Kind::Info("stop"), "    still stopping; the bag is being finished");
+            self.say(Kind::Info("stop"), "still stopping; the bag is being finished");
             let now = self.now();
             let actions = self.supervisor.hurry(now);
             return self.apply(actions);
         }
         let name = signal_hook::low_level::signal_name(signal).unwrap_or("a signal");
-        self.say(Kind::Info("stop"), &format!("    {name}: stopping the nodes, the recorder last"));
+        self.say(Kind::Info("stop"), &format!("{name}: stopping the nodes, the recorder last"));
         let early = self.plan.settings.until_taught && !self.ledger.is_over();
         let outcome = if early { Outcome::Interrupted(signal) } else { Outcome::Ended };
         self.end(outcome, Some(format!("interrupted by {name}")));
@@ -391,18 +391,18 @@ fn closing_words(summary: &Summary) -> Vec<String> {
     let centimetres = |m: Option<f64>| m.map_or("none".to_owned(), |m| format!("{:.1} cm", 100.0 * m));
     let Percentile { p50, p99 } = Percentile::of(summary);
     let mut words = vec![
-        format!("    {}: {}", summary.state.replace('_', " "), summary.why),
+        format!("{}: {}", summary.state.replace('_', " "), summary.why),
         format!(
-            "    {} questions, {} answers, last bound {} (\u{3b5} = {}), {:.1} s",
+            "{} questions, {} answers, last bound {} (\u{3b5} = {}), {:.1} s",
             summary.questions_asked,
             summary.answers,
             centimetres(summary.last_bound_m),
             centimetres(summary.epsilon_m),
             summary.wall_time_s
         ),
-        format!("    answer to next question: median {p50}, 99th percentile {p99}"),
+        format!("answer to next question: median {p50}, 99th percentile {p99}"),
     ];
-    words.extend(summary.bag.iter().map(|bag| format!("    the bag is finished: {bag}")));
+    words.extend(summary.bag.iter().map(|bag| format!("the bag is finished: {bag}")));
     words
 }
 

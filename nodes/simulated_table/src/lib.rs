@@ -2,7 +2,6 @@
 
 mod follower;
 mod layout;
-mod markers;
 mod node;
 mod robot;
 mod run;
@@ -10,7 +9,6 @@ mod settings;
 
 pub use follower::{Follower, TrajectoryError};
 pub use layout::{LayoutError, task_scene};
-pub use markers::scene_markers;
 pub use node::{Event, Output, SimulatedTableNode, TableError};
 pub use robot::{BUILT_IN_URDF, JointModel, RobotError, RobotModel};
 pub use run::run;

@@ -1,6 +1,6 @@
 //! The world as a pure state machine: time and trajectories in, the table and the arm's joints out.
 
-use crate::{Follower, LayoutError, RobotError, RobotModel, Settings, scene_markers, task_scene};
+use crate::{Follower, LayoutError, RobotError, RobotModel, Settings, task_scene};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
 use apprentice_msgs::msg::TableScene;
@@ -8,7 +8,6 @@ use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::std_msgs::{self, Header};
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
-use apprentice_msgs::visualization_msgs::MarkerArray;
 use scene::Scene;
 use thiserror::Error;
 
@@ -28,8 +27,6 @@ pub enum Event {
 pub enum Output {
     /// What stands on the table.
     Scene(TableScene),
-    /// The same for viewers.
-    Markers(MarkerArray),
     /// The robot's URDF.
     RobotDescription(std_msgs::String),
     /// Where the robot stands.
@@ -108,7 +105,7 @@ impl SimulatedTableNode {
         self.announcements += 1;
         let stamp = self.announced.get_or_insert(now).clone();
         let scene = exchange::scene_to_message(&self.scene, stamp.clone());
-        let mut outputs = vec![Output::Scene(scene), Output::Markers(scene_markers(&self.scene, &stamp))];
+        let mut outputs = vec![Output::Scene(scene)];
         if with_robot {
             outputs.push(Output::RobotDescription(std_msgs::String { data: self.robot.urdf.clone() }));
             // A robot whose root link is the table itself needs no transform.

@@ -19,7 +19,6 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let mut node = SimulatedTableNode::new(&settings, urdf).map_err(|error| NodeError::Start(error.to_string()))?;
     let mut bus: Bus<Event> = Bus::open(graph, arguments, &settings)?;
     let scene = bus.publisher("scene", Qos::State)?;
-    let markers = bus.publisher("scene_markers", Qos::State)?;
     let description = bus.publisher("/robot_description", Qos::State)?;
     let transform = bus.publisher("/tf_static", Qos::State)?;
     let joints = bus.publisher("/joint_states", Qos::Stream)?;
@@ -32,7 +31,6 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
         for output in node.step(now, event) {
             match output {
                 Output::Scene(message) => scene.publish(&message)?,
-                Output::Markers(message) => markers.publish(&message)?,
                 Output::RobotDescription(message) => description.publish(&message)?,
                 Output::Transform(message) => transform.publish(&message)?,
                 Output::Joints(message) => joints.publish(&message)?,
