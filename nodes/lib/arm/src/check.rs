@@ -1,6 +1,6 @@
 //! From a parsed description to a tree that is known to be one.
 
-use crate::scan::{Scan, shorten};
+use crate::scan::{MAX_SOLIDS, Scan, shorten};
 use crate::{Drive, Joint, JointKind, Limits, Link, Placed, Robot, Solid, UrdfError, rotation};
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 use std::collections::BTreeMap;
@@ -11,7 +11,13 @@ pub(crate) fn build(parsed: &urdf_rs::Robot, scan: &Scan) -> Result<Robot, UrdfE
         order.iter().enumerate().map(|(i, &(link, _))| (parsed.links[link].name.as_str(), i)).collect();
     let mut links = Vec::with_capacity(order.len());
     let mut joints = Vec::with_capacity(order.len());
+    let mut n_solids = 0;
     for (i, &(link, joint)) in order.iter().enumerate() {
+        n_solids += parsed.links[link].collision.len();
+        if n_solids > MAX_SOLIDS {
+            let line = line(&scan.links, &parsed.links[link].name);
+            return Err(UrdfError::TooMany { line, what: "collision shapes", max: MAX_SOLIDS });
+        }
         links.push(build_link(&parsed.links[link], scan)?);
         if let Some(joint) = joint {
             let joint = &parsed.joints[joint];

@@ -2,7 +2,7 @@
 
 use crate::solid::{ParryShape, to_parry, to_parry_pose};
 use crate::world::{Held, Standing, World};
-use crate::{Exclusions, Robot};
+use crate::{Exclusions, Robot, Solid};
 use nalgebra::{Isometry3, Vector3};
 use parry3d_f64::math::Pose;
 use parry3d_f64::query::{ClosestPoints, closest_points, distance, intersection_test};
@@ -56,12 +56,10 @@ impl CollisionModel {
             }
         }
         let groups = robot.rigid_groups();
-        let neighbours = |a: usize, b: usize| {
-            robot.joints.iter().any(|joint| {
-                let (parent, child) = (groups[joint.parent], groups[joint.child]);
-                (parent == groups[a] && child == groups[b]) || (parent == groups[b] && child == groups[a])
-            })
-        };
+        let across: BTreeSet<(usize, usize)> =
+            robot.joints.iter().map(|joint| (groups[joint.parent], groups[joint.child])).collect();
+        let neighbours =
+            |a: usize, b: usize| across.contains(&(groups[a], groups[b])) || across.contains(&(groups[b], groups[a]));
         let mut pairs = Vec::new();
         for i in 0..parts.len() {
             for j in i + 1..parts.len() {
@@ -142,11 +140,16 @@ impl CollisionModel {
         self.first_contact(robot, poses, world, margin).is_none()
     }
 
-    /// Every tested pair of links that touches, smaller index first.
-    pub(crate) fn touching_links(&self, poses: &[Isometry3<f64>]) -> BTreeSet<(usize, usize)> {
+    /// The tested pairs of links that touch, smaller index first; only those in `among`, when given.
+    pub(crate) fn touching_links(
+        &self,
+        poses: &[Isometry3<f64>],
+        among: Option<&BTreeSet<(usize, usize)>>,
+    ) -> BTreeSet<(usize, usize)> {
         let posed = self.pose_parts(poses);
-        let touching = self.pairs.iter().filter(|&&(i, j)| meet(&posed[i], &posed[j], 0.0));
-        touching.map(|&(i, j)| (self.parts[i].link, self.parts[j].link)).collect()
+        let links = |&(i, j): &(usize, usize)| (self.parts[i].link, self.parts[j].link);
+        let asked = self.pairs.iter().filter(|pair| among.is_none_or(|among| among.contains(&links(pair))));
+        asked.filter(|&&(i, j)| meet(&posed[i], &posed[j], 0.0)).map(links).collect()
     }
 
     fn pose_parts(&self, poses: &[Isometry3<f64>]) -> Vec<Posed<'_>> {
@@ -204,6 +207,16 @@ fn meet_obstacle(part: &Posed, obstacle: &Standing, margin: f64) -> bool {
 
 fn gap(a: &Posed, b: &Posed) -> f64 {
     distance(&a.pose, a.shape.as_shape(), &b.pose, b.shape.as_shape())
+        .expect("parry supports every pair of these shapes")
+        .distance
+        .max(0.0)
+}
+
+/// Distance between two solids in one frame, metres; 0 when they touch or overlap.
+pub fn solid_distance(a: &Solid, frame_from_a: &Isometry3<f64>, b: &Solid, frame_from_b: &Isometry3<f64>) -> f64 {
+    let ((shape_a, solid_from_a), (shape_b, solid_from_b)) = (to_parry(a), to_parry(b));
+    let (pose_a, pose_b) = (to_parry_pose(frame_from_a) * solid_from_a, to_parry_pose(frame_from_b) * solid_from_b);
+    distance(&pose_a, shape_a.as_shape(), &pose_b, shape_b.as_shape())
         .expect("parry supports every pair of these shapes")
         .distance
         .max(0.0)

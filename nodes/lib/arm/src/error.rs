@@ -26,7 +26,7 @@ pub enum UrdfError {
     TooMany {
         /// Where the limit was passed.
         line: usize,
-        /// "elements", "links", "joints", or "attributes on one element".
+        /// "elements", "links", "joints", "collision shapes" or "attributes on one element".
         what: &'static str,
         /// Allowed.
         max: usize,

@@ -114,11 +114,7 @@ impl Exclusions {
                 })
                 .collect();
             robot.link_poses(&q, &mut poses);
-            let touching = model.touching_links(&poses);
-            let kept = match always {
-                None => touching,
-                Some(before) => before.intersection(&touching).copied().collect(),
-            };
+            let kept = model.touching_links(&poses, always.as_ref());
             if kept.is_empty() {
                 return self;
             }

@@ -18,7 +18,7 @@ mod solid;
 mod world;
 
 pub use chain::{Chain, ChainError, MAX_CHAIN_JOINTS};
-pub use collision::{CollisionModel, Contact};
+pub use collision::{CollisionModel, Contact, solid_distance};
 pub use error::UrdfError;
 pub use exclusions::{ExclusionError, Exclusions};
 pub use inverse::{AxisGoal, IkOutcome, IkSettings, solve};
@@ -26,6 +26,6 @@ pub use jacobian::{JacobianColumn, jacobian};
 pub use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 pub use robot::{Drive, Joint, JointKind, Limits, Link, Placed, Robot};
 pub use rotation::{about_axis, about_z, from_rpy};
-pub use scan::{MAX_BYTES, MAX_DEPTH, MAX_ELEMENTS, MAX_LINKS};
+pub use scan::{MAX_BYTES, MAX_DEPTH, MAX_ELEMENTS, MAX_LINKS, MAX_SOLIDS};
 pub use solid::Solid;
 pub use world::{Obstacle, World};

@@ -88,7 +88,7 @@ pub enum Drive {
     Fixed,
     /// This entry of the configuration.
     Position(usize),
-    /// multiplier · q[leader] + offset.
+    /// multiplier · leader's position + offset.
     Mimic {
         /// Entry of the configuration.
         leader: usize,

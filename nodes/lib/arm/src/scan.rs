@@ -13,6 +13,8 @@ pub const MAX_BYTES: usize = 10_000_000;
 pub const MAX_DEPTH: usize = 64;
 /// Most links, and most joints.
 pub const MAX_LINKS: usize = 1_000;
+/// Most collision shapes: each is tested against each.
+pub const MAX_SOLIDS: usize = 256;
 /// Most elements in all.
 pub const MAX_ELEMENTS: usize = 100_000;
 const MAX_ATTRIBUTES: usize = 32;
@@ -251,7 +253,8 @@ fn numbers(element: &str, attribute: &str) -> Option<(usize, f64)> {
         ("origin", "xyz" | "rpy") | ("box", "size") | ("mesh", "scale") | ("axis", "xyz") => (3, LENGTH),
         ("cylinder" | "capsule", "radius" | "length") | ("sphere", "radius") => (1, LENGTH),
         ("color", "rgba") => (4, ANY),
-        ("limit", "lower" | "upper" | "effort" | "velocity" | "acceleration" | "deceleration" | "jerk")
+        ("limit", "lower" | "upper") => (1, LENGTH),
+        ("limit", "effort" | "velocity" | "acceleration" | "deceleration" | "jerk")
         | ("mimic", "multiplier" | "offset")
         | ("mass", "value")
         | ("inertia", "ixx" | "ixy" | "ixz" | "iyy" | "iyz" | "izz")

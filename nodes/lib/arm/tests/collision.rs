@@ -1,7 +1,10 @@
 //! Collisions with known answers, and the pairs that are left out.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use arm::{Chain, CollisionModel, Contact, Exclusions, Isometry3, Obstacle, Placed, Robot, Solid, Vector3, World};
+use arm::{
+    Chain, CollisionModel, Contact, Exclusions, Isometry3, Obstacle, Placed, Robot, Solid, Vector3, World,
+    solid_distance,
+};
 
 const TABLE_ARM: &str = include_str!("../../../../config/urdf/table_arm.urdf");
 const HOME: [f64; 7] = [0.0, -0.6, 2.2, 0.0, 1.54, 0.0, 0.05];
@@ -142,4 +145,25 @@ fn pairs_that_always_touch_are_left_out_and_others_are_kept() {
     assert_eq!(unknown, "the list of disabled collisions names the link 'z', which the robot does not have");
     let lacking = Exclusions::none().disable_srdf(&robot, "<robot><disable_collisions link1='a'/></robot>");
     assert!(lacking.unwrap_err().to_string().contains("lacks 'link2'"));
+}
+
+#[test]
+fn distances_between_solids_are_the_known_ones() {
+    let at = |x: f64, y: f64, z: f64| Isometry3::translation(x, y, z);
+    let (ball, cube) = (Solid::Ball { radius: 0.1 }, Solid::Box { half_extents: [0.1, 0.2, 0.3] });
+    let cylinder = Solid::Cylinder { radius: 0.1, half_length: 0.4 };
+    let cases = [
+        (ball, at(0.0, 0.0, 0.0), ball, at(0.3, 0.4, 0.0), 0.3),
+        (ball, at(0.0, 0.0, 0.0), ball, at(0.1, 0.0, 0.0), 0.0),
+        // Corner to corner: (0.3, 0.4, 0) apart.
+        (cube, at(0.0, 0.0, 0.0), cube, at(0.5, 0.8, 0.0), 0.5),
+        // Side to side, and end to end along z.
+        (cylinder, at(0.0, 0.0, 0.0), cylinder, at(0.3, 0.4, 0.5), 0.3),
+        (cylinder, at(0.0, 0.0, 0.0), cylinder, at(0.05, 0.0, 1.0), 0.2),
+    ];
+    for (a, pose_a, b, pose_b, expected) in cases {
+        let found = solid_distance(&a, &pose_a, &b, &pose_b);
+        assert!((found - expected).abs() < 1e-6, "{a:?} {b:?}: {found}");
+        assert!((solid_distance(&b, &pose_b, &a, &pose_a) - found).abs() < 1e-9);
+    }
 }

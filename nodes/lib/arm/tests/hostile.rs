@@ -142,6 +142,10 @@ fn size_depth_and_counts_are_capped_before_parsing() {
     assert!(matches!(many, Err(UrdfError::TooMany { what: "links", .. })), "{many:?}");
     let elements = format!("<robot><link name='a'/>{}</robot>", "<y/>".repeat(arm::MAX_ELEMENTS));
     assert!(matches!(Robot::from_urdf(&elements), Err(UrdfError::TooMany { what: "elements", .. })));
+    let shape = "<collision><geometry><sphere radius='1'/></geometry></collision>";
+    let solids =
+        Robot::from_urdf(&format!("<robot><link name='a'>{}</link></robot>", shape.repeat(arm::MAX_SOLIDS + 1)));
+    assert!(matches!(solids, Err(UrdfError::TooMany { line: 1, what: "collision shapes", .. })), "{solids:?}");
     let attributes: String = (0..10_000).map(|i| format!(" a{i}=''")).collect();
     let wide = Robot::from_urdf(&format!("<robot{attributes}/>"));
     assert!(matches!(wide, Err(UrdfError::TooMany { what: "attributes on one element", .. })));

@@ -48,9 +48,8 @@ pub(crate) fn refine(
             let steps = AROUND
                 .iter()
                 .map(|&(dx, dy)| Point::new(best.at_m.x + share * dx * cell_m.x, best.at_m.y + share * dy * cell_m.y));
-            let better = rank(steps, optima_m, alpha)
-                .into_iter()
-                .find(|step| !(step.cvar_m >= best.cvar_m) && usable(step.at_m));
+            let better =
+                rank(steps, optima_m, alpha).into_iter().find(|step| step.cvar_m < best.cvar_m && usable(step.at_m));
             let Some(step) = better else { break };
             best = step;
         }

@@ -11,6 +11,9 @@ use thiserror::Error;
 /// Thickness of the slab that stands for the table, metres.
 const SLAB_M: f64 = 0.04;
 
+/// An endless joint is taken to be no farther than this from 0, radians.
+const FAR: f64 = 1e3;
+
 /// Why an arm cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ManipulatorError {
@@ -71,7 +74,8 @@ impl Manipulator {
             let joint = self.robot.driven_joint(i);
             let named = joints.iter().find(|(name, position)| *name == joint.name && position.is_finite());
             if let Some((_, position)) = named {
-                *q = position.clamp(joint.limits.lower, joint.limits.upper);
+                let limits = &joint.limits;
+                *q = position.clamp(limits.lower.max(-FAR), limits.upper.min(FAR));
             }
         }
         q

@@ -10,6 +10,9 @@ use scene::Point;
 /// A joint may change by no more than this while the tool goes down by one step: else the arm would have to turn over.
 const LARGEST_CHANGE: f64 = 0.2;
 
+/// An edge that would take more checks counts as blocked: no arm that fits a table needs one.
+const MOST_STEPS: f64 = 10_000.0;
+
 /// Configurations joined by straight edges in joint space.
 pub(crate) struct Motion {
     /// From where the arm is to above the place.
@@ -68,7 +71,11 @@ pub(crate) fn edge_is_free(cell: &Cell, a: &[f64], b: &[f64], poses: &mut Vec<Is
     let change = |entry: usize| (b[entry] - a[entry]).abs();
     let largest = chain.entries.iter().map(|&entry| change(entry)).fold(0.0, f64::max);
     let tool_m: f64 = chain.entries.iter().zip(&chain.levers).map(|(&entry, lever)| change(entry) * lever).sum();
-    let n = (largest / JOINT_STEP).max(tool_m / TOOL_STEP_M).ceil().max(1.0) as usize;
+    let n = (largest / JOINT_STEP).max(tool_m / TOOL_STEP_M).ceil().max(1.0);
+    if n > MOST_STEPS {
+        return false;
+    }
+    let n = n as usize;
     let mut q = a.to_vec();
     let mut free_at = |i: usize| {
         let share = i as f64 / n as f64;

@@ -4,6 +4,9 @@ use crate::MotionSettings;
 use crate::manipulator::Manipulator;
 use crate::motion::Motion;
 
+/// Points of one section at most, corners not counted: a joint may be allowed to crawl for ever.
+const MOST_SAMPLES: f64 = 1000.0;
+
 /// A timed path of the joints that move the tool.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Trajectory {
@@ -96,7 +99,7 @@ fn add_section(manipulator: &Manipulator, path: &[Vec<f64>], points: &mut Vec<Tr
     }
     let profile = Profile::new(length, settings);
     let start_s = points.last().map_or(0.0, |point| point.time_from_start_s);
-    let n = (profile.total_s / settings.sample_s).ceil().max(1.0) as usize;
+    let n = (profile.total_s / settings.sample_s).ceil().clamp(1.0, MOST_SAMPLES) as usize;
     let mut samples: Vec<(f64, f64)> = (0..=n)
         .map(|i| profile.total_s * i as f64 / n as f64)
         .map(|t| (t, profile.at(t).0))
@@ -122,5 +125,36 @@ fn add_section(manipulator: &Manipulator, path: &[Vec<f64>], points: &mut Vec<Tr
             velocities: chain.entries.iter().map(|&e| (to[e] - from[e]) * speed).collect(),
             time_from_start_s: start_s + t,
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Profile;
+    use crate::MotionSettings;
+    use proptest::prelude::{prop_assert, proptest};
+
+    proptest! {
+        #[test]
+        fn place_and_time_are_inverse_and_speed_is_their_slope(length in 0.001..5.0_f64, share in 0.0..1.0_f64) {
+            let settings = MotionSettings::default();
+            let profile = Profile::new(length, &settings);
+            let t = share * profile.total_s;
+            let (s, speed) = profile.at(t);
+            prop_assert!((profile.when(s) - t).abs() < 1e-6);
+            prop_assert!((0.0..=settings.speed).contains(&speed));
+            let h = 1e-6;
+            let slope = (profile.at(t + h).0 - profile.at(t - h).0) / (2.0 * h);
+            prop_assert!((slope - speed).abs() < 1e-5, "{slope} {speed}");
+        }
+    }
+
+    #[test]
+    fn long_and_short_sections_take_the_textbook_time() {
+        let settings = MotionSettings { speed: 0.5, acceleration_s: 0.4, ..MotionSettings::default() };
+        // Speed 0.5 and acceleration 1.25: 2 at full speed take 4 s, and 0.4 s of ramps.
+        assert!((Profile::new(2.0, &settings).total_s - 4.4).abs() < 1e-12);
+        // 0.05 is less than the ramps need: a triangle of twice the root of 0.05 / 1.25.
+        assert!((Profile::new(0.05, &settings).total_s - 0.4).abs() < 1e-12);
     }
 }

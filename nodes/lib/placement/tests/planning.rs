@@ -5,7 +5,7 @@ mod common;
 
 use arm::{
     AxisGoal, Chain, CollisionModel, Exclusions, IkOutcome, IkSettings, Isometry3, Obstacle, Placed, Robot, Solid,
-    Translation3, Vector3, World, about_z, solve,
+    Translation3, Vector3, World, about_z, solid_distance, solve,
 };
 use common::{TABLE_ARM, flowers, home, object, posterior, wall};
 use placement::{CellState, LossBatch, MAP_SIDE, Manipulator, MotionSettings, PlanOutcome, Planner, ReachMap};
@@ -151,6 +151,9 @@ fn a_wall_is_gone_around() {
     let plan = planner().plan(&scene, &batch(&draws, &map), 0.9, &home());
     assert_eq!(plan.outcome, PlanOutcome::Planned, "{}", plan.reason);
     check_trajectory(&scene, &plan, &home(), 0.006);
+    // It rests at corners on the way, which a straight line over and down does not.
+    let rests = plan.trajectory.points.iter().filter(|point| point.velocities.iter().all(|v| *v == 0.0)).count();
+    assert!(rests > 3, "{rests}");
 }
 
 #[test]
@@ -334,4 +337,47 @@ fn the_reward_map_is_the_mean_over_the_draws() {
             / 30.0;
         assert!((f64::from(plan.reward_map[i]) - mean).abs() < 1e-6);
     }
+}
+
+#[test]
+fn free_places_are_free_of_the_solids_themselves() {
+    // The bounding circle that decides about free places is on the safe side of parry's answer, and exact for cylinders.
+    let mut scene = flowers();
+    scene.objects[1].shape = Shape::Box { width_m: 0.3, depth_m: 0.1, height_m: 0.05 };
+    scene.objects[1].yaw_rad = 0.7;
+    let (occupied, grid) = (scene.occupied(), Grid::midpoints(64));
+    let pose = |object: &Object, at: Point| {
+        let up = Translation3::new(at.x, at.y, object.shape.height_m() / 2.0);
+        Isometry3::from_parts(up, about_z(object.yaw_rad))
+    };
+    for i in 0..grid.n() {
+        let at = scene.metres(grid.at(i));
+        let gap = |object: &Object| {
+            let (a, b) = (solid(object), solid(&scene.target));
+            solid_distance(&a, &pose(object, object.position_m), &b, &pose(&scene.target, at))
+        };
+        let least = scene.objects.iter().map(gap).fold(f64::INFINITY, f64::min);
+        match occupied.reason(at) {
+            None => assert!(least > 0.0, "{at:?}"),
+            Some(scene::Obstruction::Object { .. }) => assert!(least < 1e-6, "{at:?}: {least}"),
+            Some(scene::Obstruction::Edge) => {}
+        }
+    }
+}
+
+#[test]
+fn a_joint_that_crawls_or_an_endless_turn_does_not_stop_the_planner() {
+    let crawling = TABLE_ARM.replace(r#"effort="150" velocity="1.6""#, r#"effort="150" velocity="1e-11""#);
+    let (draws, map) = posterior(5, 0.0, 1);
+    let mut planner = Planner::new(MotionSettings::default());
+    planner.set_robot(&crawling).unwrap();
+    let plan = planner.plan(&flowers(), &batch(&draws, &map), 0.9, &home());
+    assert_eq!(plan.outcome, PlanOutcome::Planned);
+    assert!(plan.trajectory.points.len() < 20_000, "{}", plan.trajectory.points.len());
+    let endless = TABLE_ARM.replace(r#"name="wrist_roll" type="revolute""#, r#"name="wrist_roll" type="continuous""#);
+    let mut joints = home();
+    joints[5].1 = 1e300;
+    planner.set_robot(&endless).unwrap();
+    let plan = planner.plan(&flowers(), &batch(&draws, &map), 0.9, &joints);
+    assert!(matches!(plan.outcome, PlanOutcome::Planned | PlanOutcome::NoPath), "{}", plan.reason);
 }
