@@ -12,4 +12,4 @@ pub use node::{Event, Output, PlayerNode, Source, Summary};
 pub use qos::replay_qos;
 pub use run::run;
 pub use schedule::Schedule;
-pub use settings::{Settings, SettingsError};
+pub use settings::Settings;

@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use bag::{Message, Topic, TopicContents};
+use bag::{FilterError, Message, Topic, TopicContents, TopicFilter};
 
-use crate::settings::Filter;
-use crate::{Schedule, Settings, SettingsError};
+use crate::{Schedule, Settings};
 
+/// Topic of simulated time.
+const CLOCK: &str = "/clock";
 /// Most messages that go out in one step, so that a fast replay still hears a pause.
 const MAX_BURST: usize = 500;
 
@@ -59,7 +60,7 @@ pub struct Summary {
 /// The player without files, threads and graph. Times of `step` are ns of a steady clock.
 pub struct PlayerNode {
     schedule: Schedule,
-    filter: Filter,
+    filter: TopicFilter,
     looping: bool,
     /// The bag's time from which messages are played.
     first: u64,
@@ -80,12 +81,12 @@ impl PlayerNode {
     ///
     /// # Errors
     /// When a pattern is no regular expression.
-    pub fn new(settings: &Settings, bag_start: u64, mut open: Source, now: u64) -> Result<PlayerNode, SettingsError> {
+    pub fn new(settings: &Settings, bag_start: u64, mut open: Source, now: u64) -> Result<PlayerNode, FilterError> {
         let first = bag_start.saturating_add(nanoseconds(settings.start_offset_s));
         let starts_at = now.saturating_add(nanoseconds(settings.delay_s));
         Ok(PlayerNode {
             schedule: Schedule::new(first, starts_at, settings.rate, settings.paused),
-            filter: Filter::new(settings)?,
+            filter: TopicFilter::new(&settings.topics, &settings.exclude)?,
             looping: settings.r#loop,
             first,
             messages: open(),
@@ -102,7 +103,12 @@ impl PlayerNode {
 
     /// The topics that will be played.
     pub fn played<'a>(&self, topics: &'a [TopicContents]) -> Vec<&'a TopicContents> {
-        topics.iter().filter(|found| self.filter.takes(&found.topic.name)).collect()
+        topics.iter().filter(|found| self.takes(&found.topic.name)).collect()
+    }
+
+    /// Whether a topic is played; the bag's `/clock` is not when the player makes its own.
+    fn takes(&self, topic: &str) -> bool {
+        self.filter.takes(topic) && !(self.clock_period.is_some() && topic == CLOCK)
     }
 
     /// Whether it is paused.
@@ -181,7 +187,7 @@ impl PlayerNode {
         while self.next.is_none() {
             match self.messages.next().transpose()? {
                 None => return Ok(false),
-                Some(message) if message.log_time >= self.first && self.filter.takes(&message.topic.name) => {
+                Some(message) if message.log_time >= self.first && self.takes(&message.topic.name) => {
                     self.next = Some(message);
                 }
                 Some(_) => {}

@@ -1,7 +1,7 @@
 //! The player's parameters.
 
+use bag::TopicFilter;
 use bus::{NodeSettings, ParameterSpec, Range};
-use regex::Regex;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the player.
@@ -88,59 +88,8 @@ impl NodeSettings for Settings {
     ];
 
     fn check(&self) -> Result<(), String> {
-        Filter::new(self).map(drop).map_err(|error| error.to_string())
+        TopicFilter::new(&self.topics, &self.exclude).map(drop).map_err(|error| error.to_string())
     }
-}
-
-/// Why settings cannot be used.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum SettingsError {
-    /// Not a regular expression.
-    #[error("`{name}`: '{got}' is no regular expression: {why}")]
-    Regex {
-        /// The parameter.
-        name: &'static str,
-        /// The text.
-        got: String,
-        /// What is wrong with it.
-        why: String,
-    },
-}
-
-/// Which topics are played.
-#[derive(Debug, Clone)]
-pub(crate) struct Filter {
-    topics: Vec<Regex>,
-    exclude: Vec<Regex>,
-    /// `/clock` of the bag stays out when the player makes its own.
-    own_clock: bool,
-}
-
-impl Filter {
-    pub(crate) fn new(settings: &Settings) -> Result<Filter, SettingsError> {
-        Ok(Filter {
-            topics: compile("topics", &settings.topics)?,
-            exclude: compile("exclude", &settings.exclude)?,
-            own_clock: settings.clock_hz > 0.0,
-        })
-    }
-
-    pub(crate) fn takes(&self, topic: &str) -> bool {
-        let any = |patterns: &[Regex]| patterns.iter().any(|pattern| pattern.is_match(topic));
-        let clock_is_ours = self.own_clock && topic == "/clock";
-        (self.topics.is_empty() || any(&self.topics)) && !any(&self.exclude) && !clock_is_ours
-    }
-}
-
-fn compile(name: &'static str, patterns: &[String]) -> Result<Vec<Regex>, SettingsError> {
-    let compile_one = |text: &String| {
-        Regex::new(&format!("^(?:{text})$")).map_err(|error| SettingsError::Regex {
-            name,
-            got: text.clone(),
-            why: error.to_string().lines().last().unwrap_or_default().trim().to_owned(),
-        })
-    };
-    patterns.iter().map(compile_one).collect()
 }
 
 #[cfg(test)]
@@ -150,11 +99,5 @@ mod tests {
     #[test]
     fn the_table_and_the_settings_agree() {
         bus::testing::check_parameters::<Settings>();
-    }
-
-    #[test]
-    fn the_bags_clock_is_left_out_only_when_the_player_makes_its_own() {
-        let takes = |clock_hz| Filter::new(&Settings { clock_hz, ..Settings::default() }).map(|f| f.takes("/clock"));
-        assert_eq!((takes(0.0), takes(10.0)), (Ok(true), Ok(false)));
     }
 }

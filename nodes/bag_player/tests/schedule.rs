@@ -132,6 +132,15 @@ fn the_clock_ticks_with_the_bags_time_and_stands_in_a_pause() {
 }
 
 #[test]
+fn the_bags_own_clock_is_left_out_only_when_the_player_makes_one() {
+    let clock = Arc::new(Topic::ros2("/clock", "rosgraph_msgs/msg/Clock", "", &[]));
+    let recorded: Vec<_> =
+        messages(2).into_iter().map(|message| Message { topic: Arc::clone(&clock), ..message }).collect();
+    let played = |clock_hz| play(&Settings { clock_hz, ..Settings::default() }, recorded.clone(), &[], 100).0.len();
+    assert_eq!((played(0.0), played(0.5)), (2, 0));
+}
+
+#[test]
 fn messages_that_are_no_cdr_are_counted_told_once_and_left_out() {
     let mut bad = messages(5);
     bad[1].data = vec![1, 2];

@@ -13,5 +13,5 @@ mod writing;
 pub use definitions::Definitions;
 pub use node::{Event, Output, RecorderNode};
 pub use run::run;
-pub use settings::{Compression, Settings, SettingsError};
+pub use settings::{Compression, Settings};
 pub use tape::{Tape, TapeError, TapeSettings};

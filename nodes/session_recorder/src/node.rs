@@ -2,11 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use bag::{Durability, History, Liveliness, OfferedQos, QosSpan, Reliability, Topic};
+use bag::{Durability, FilterError, History, Liveliness, OfferedQos, QosSpan, Reliability, Topic, TopicFilter};
 use bus::{QosProfile, RawMessage, Time, TopicInfo};
 
-use crate::settings::Filter;
-use crate::{Definitions, Settings, SettingsError};
+use crate::{Definitions, Settings};
 
 /// Fewest samples a subscription asks to have kept, so that bursts are not lost.
 const MIN_DEPTH: usize = 1_000;
@@ -59,7 +58,7 @@ pub enum Output {
 /// The recorder without files, threads and graph.
 #[derive(Debug)]
 pub struct RecorderNode {
-    filter: Filter,
+    filter: TopicFilter,
     definitions: Definitions,
     /// Type and QoS of each topic that is subscribed to.
     recorded: BTreeMap<String, (String, QosProfile)>,
@@ -74,9 +73,9 @@ impl RecorderNode {
     ///
     /// # Errors
     /// When a pattern is no regular expression.
-    pub fn new(settings: &Settings, definitions: Definitions) -> Result<RecorderNode, SettingsError> {
+    pub fn new(settings: &Settings, definitions: Definitions) -> Result<RecorderNode, FilterError> {
         Ok(RecorderNode {
-            filter: Filter::new(settings)?,
+            filter: TopicFilter::new(&settings.topics, &settings.exclude)?,
             definitions,
             recorded: BTreeMap::new(),
             conflicts: BTreeSet::new(),

@@ -1,7 +1,7 @@
 //! The recorder's parameters.
 
+use bag::TopicFilter;
 use bus::{NodeSettings, ParameterSpec, Range};
-use regex::Regex;
 use serde::{Deserialize, Serialize};
 
 /// How the chunks of the bag are compressed.
@@ -103,52 +103,8 @@ impl NodeSettings for Settings {
     ];
 
     fn check(&self) -> Result<(), String> {
-        Filter::new(self).map(drop).map_err(|error| error.to_string())
+        TopicFilter::new(&self.topics, &self.exclude).map(drop).map_err(|error| error.to_string())
     }
-}
-
-/// Why settings cannot be used.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum SettingsError {
-    /// Not a regular expression.
-    #[error("`{name}`: '{got}' is no regular expression: {why}")]
-    Regex {
-        /// The parameter.
-        name: &'static str,
-        /// The text.
-        got: String,
-        /// What is wrong with it.
-        why: String,
-    },
-}
-
-/// Which topics are recorded.
-#[derive(Debug, Clone)]
-pub(crate) struct Filter {
-    topics: Vec<Regex>,
-    exclude: Vec<Regex>,
-}
-
-impl Filter {
-    pub(crate) fn new(settings: &Settings) -> Result<Filter, SettingsError> {
-        Ok(Filter { topics: compile("topics", &settings.topics)?, exclude: compile("exclude", &settings.exclude)? })
-    }
-
-    pub(crate) fn takes(&self, topic: &str) -> bool {
-        let any = |patterns: &[Regex]| patterns.iter().any(|pattern| pattern.is_match(topic));
-        (self.topics.is_empty() || any(&self.topics)) && !any(&self.exclude)
-    }
-}
-
-fn compile(name: &'static str, patterns: &[String]) -> Result<Vec<Regex>, SettingsError> {
-    let compile_one = |text: &String| {
-        Regex::new(&format!("^(?:{text})$")).map_err(|error| SettingsError::Regex {
-            name,
-            got: text.clone(),
-            why: error.to_string().lines().last().unwrap_or_default().trim().to_owned(),
-        })
-    };
-    patterns.iter().map(compile_one).collect()
 }
 
 #[cfg(test)]
@@ -158,26 +114,5 @@ mod tests {
     #[test]
     fn the_table_and_the_settings_agree() {
         bus::testing::check_parameters::<Settings>();
-    }
-
-    #[test]
-    fn patterns_are_of_whole_names_and_exclusion_wins() {
-        let settings = Settings {
-            topics: vec!["/a/.*".to_owned(), "/scene".to_owned()],
-            exclude: vec![".*/image".to_owned()],
-            ..Settings::default()
-        };
-        let filter = Filter::new(&settings).expect("they are regular expressions");
-        let taken = ["/a/b", "/scene", "/scene2", "/x/scene", "/a/image", "/b"].map(|topic| filter.takes(topic));
-        assert_eq!(taken, [true, true, false, false, false, false]);
-        assert!(Filter::new(&Settings::default()).expect("there are none").takes("/anything"));
-    }
-
-    #[test]
-    fn a_broken_pattern_is_one_line_that_names_it() {
-        let settings = Settings { topics: vec!["/a(".to_owned()], ..Settings::default() };
-        let error = settings.check().expect_err("the group is open");
-        assert!(error.starts_with("`topics`: '/a(' is no regular expression: "), "{error}");
-        assert_eq!(error.lines().count(), 1);
     }
 }

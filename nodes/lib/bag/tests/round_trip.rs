@@ -154,3 +154,41 @@ proptest! {
         prop_assert_eq!(read, expected);
     }
 }
+
+/// Takes so many bytes, then is full.
+struct Disk(usize);
+
+impl std::io::Write for Disk {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let taken = bytes.len().min(self.0);
+        self.0 -= taken;
+        if taken == 0 { Err(std::io::Error::from(std::io::ErrorKind::StorageFull)) } else { Ok(taken) }
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error_at_any_byte_and_nothing_is_written_after_it() {
+    let whole = write(Compression::None, true).len();
+    for room in 0..whole {
+        let Ok(mut writer) = BagWriter::new(Disk(room), &WriterOptions::default()) else { continue };
+        let mut write_all = || -> Result<(), BagError> {
+            for (topic, time, cdr) in messages() {
+                let id = writer.add_topic(&topics()[topic])?;
+                writer.write(id, time, time, &cdr)?;
+                writer.flush()?;
+            }
+            Ok(())
+        };
+        match write_all() {
+            Ok(()) => assert!(matches!(writer.finish(), Ok(_) | Err(BagError::Write(_)))),
+            Err(error) => {
+                assert!(matches!(&error, BagError::Write(e) if e.kind() == std::io::ErrorKind::StorageFull), "{error}");
+                assert!(matches!(writer.flush(), Err(BagError::WriterBroken)));
+            }
+        }
+    }
+}
