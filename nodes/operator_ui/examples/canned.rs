@@ -1,7 +1,7 @@
 //! The operator page with a canned lesson behind it: a question after each answer, taught after a few.
 //!
 //! `cargo run --release -p operator_ui --example canned -- -p port:=9000`; the address is printed. No other node is
-//! needed, so the page can be worked on and looked at alone.
+//! needed, so the page can be worked on and looked at alone. With `dds` as the first argument the two talk over DDS.
 
 #[path = "../tests/world/mod.rs"]
 mod world;
@@ -124,10 +124,12 @@ fn teach(graph: &Graph) -> Result<(), NodeError> {
 }
 
 fn main() -> Result<(), NodeError> {
-    let mut args = vec!["--ros-args".to_owned()];
-    args.extend(std::env::args().skip(1));
-    let arguments = Arguments::parse(&args)?;
-    let graph = Graph::Memory(MemoryGraph::new());
+    let mut given: Vec<String> = std::env::args().skip(1).collect();
+    let over_dds = given.first().is_some_and(|first| first == "dds");
+    given.drain(..usize::from(over_dds));
+    given.insert(0, "--ros-args".to_owned());
+    let arguments = Arguments::parse(&given)?;
+    let graph = if over_dds { Graph::Dds } else { Graph::Memory(MemoryGraph::new()) };
     let beside = graph.clone();
     let lesson = std::thread::spawn(move || teach(&beside));
     operator_ui::run(&graph, &arguments)?;

@@ -176,6 +176,10 @@ function renderLesson() {
   text("bound", bound === null ? (bounds ? "no bound yet" : "–") : cm(bound), bound);
   $("bound").dataset.revision = bounds?.revision ?? "";
   text("epsilon", cm(epsilon), epsilon);
+  const here = asking ? question.bound_m : null;
+  text("question-bound", cm(here), here);
+  $("here").hidden = here === null;
+  document.title = `${asking ? "A question" : STATES[word]} · apprentice`;
   const full = Math.max(bound ?? 0, (epsilon ?? 0.1) * 2) * 1.05;
   $("gauge-fill").style.width = `${bound === null ? 100 : Math.min(100, (100 * bound) / full)}%`;
   $("gauge").dataset.state = bound === null ? "none" : epsilon !== null && bound < epsilon ? "below" : "above";

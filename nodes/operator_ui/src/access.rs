@@ -120,8 +120,7 @@ impl Access {
             let mut pairs = pairs.split(separator).filter_map(|pair| pair.trim().split_once('='));
             pairs.any(|(key, value)| key == name && fits(value))
         };
-        let good =
-            query.is_some_and(|q| pair(q, '&', "token")) || cookies.is_some_and(|c| pair(c, ';', &self.cookie));
+        let good = query.is_some_and(|q| pair(q, '&', "token")) || cookies.is_some_and(|c| pair(c, ';', &self.cookie));
         if good { Ok(()) } else { Err(AccessError::Token) }
     }
 }
@@ -164,7 +163,9 @@ mod tests {
         for good in ["127.0.0.1:8642", "localhost:9000", "LOCALHOST", "[::1]:8642", "127.0.0.1"] {
             assert_eq!(access.check_host(Some(good)), Ok(()), "{good}");
         }
-        for bad in ["evil.example:8642", "192.168.1.2:8642", "robot.local", "", "localhost.evil.example", "[::2]:1", "::1"] {
+        for bad in
+            ["evil.example:8642", "192.168.1.2:8642", "robot.local", "", "localhost.evil.example", "[::2]:1", "::1"]
+        {
             assert!(access.check_host(Some(bad)).is_err(), "{bad}");
         }
         assert!(access.check_host(None).is_err());

@@ -125,7 +125,7 @@ impl Answers {
         let mut due = Vec::new();
         for waiting in self.waiting.iter_mut().filter(|waiting| waiting.held_for.is_none()) {
             if waiting.sent.as_ref().is_none_or(|sent| now.nanoseconds_since(sent) >= REPUBLISH_NS) {
-                waiting.sent = Some(now.clone());
+                waiting.sent = Some(*now);
                 due.push(waiting.evidence.clone());
             }
         }
@@ -191,8 +191,8 @@ impl Answers {
 
     /// Takes the evidence log: everything accepted so far. Returns whether anything changed.
     pub fn log(&mut self, log: &EvidenceLog) -> bool {
-        let same = log.records.len() >= self.taken
-            && (self.taken == 0 || id_of(&log.records[self.taken - 1]) == self.last_id);
+        let same =
+            log.records.len() >= self.taken && (self.taken == 0 || id_of(&log.records[self.taken - 1]) == self.last_id);
         if !same {
             self.entries.retain(|entry| entry.view.state == Fate::Pending);
             self.taken = 0;

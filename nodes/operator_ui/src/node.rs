@@ -5,11 +5,14 @@ use crate::hub::PageId;
 use crate::markers::markers;
 use crate::presence::Presence;
 use crate::protocol::{
-    BoundsView, FromPage, LessonView, NodeView, PROTOCOL, PlanView, PosteriorView, SceneView, Sections, ToPage, TrendPoint,
+    BoundsView, FromPage, LessonView, NodeView, PROTOCOL, PlanView, PosteriorView, SceneView, Sections, ToPage,
+    TrendPoint,
 };
 use crate::question::{Context, id_of};
 use crate::settings::Settings;
-use crate::view::{bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point};
+use crate::view::{
+    bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point,
+};
 use apprentice_msgs::msg::{
     EvidenceLog, EvidenceReceipt, Heartbeat, LessonStatus, PerformanceBounds, PlacementDemonstration, PlacementPlan,
     PlacementQuery, Posterior, QueryResponse, Retraction, TableScene,
@@ -278,7 +281,7 @@ impl OperatorUi {
     fn tick(&mut self, now: &Time) -> Option<Output> {
         let due = self.ticked.as_ref().is_none_or(|ticked| now.nanoseconds_since(ticked) >= TICK_NS);
         due.then(|| {
-            self.ticked = Some(now.clone());
+            self.ticked = Some(*now);
             tell(None, &ToPage::Tick)
         })
     }

@@ -35,14 +35,14 @@ impl Presence {
         let has_room = self.nodes.len() < MAX_NODES;
         match self.nodes.get_mut(&beat.node) {
             Some(seen) => {
-                seen.at = now.clone();
+                seen.at = *now;
                 if seen.instance != beat.instance {
                     seen.instance = beat.instance;
                     seen.restarts = seen.restarts.saturating_add(1);
                 }
             }
             None if has_room => {
-                self.nodes.insert(beat.node, Seen { at: now.clone(), instance: beat.instance, restarts: 0 });
+                self.nodes.insert(beat.node, Seen { at: *now, instance: beat.instance, restarts: 0 });
             }
             None => {}
         }

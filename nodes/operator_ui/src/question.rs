@@ -3,7 +3,9 @@
 use crate::answers::{Answers, Evidence};
 use crate::protocol::{Confidence, FromPage, Kind};
 use apprentice_msgs::geometry_msgs::Point;
-use apprentice_msgs::msg::{LessonStatus, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction, TableScene};
+use apprentice_msgs::msg::{
+    LessonStatus, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction, TableScene,
+};
 use apprentice_msgs::std_msgs::Header;
 use bus::Time;
 
@@ -69,7 +71,7 @@ impl Context<'_> {
                     ));
                 }
                 Evidence::Demonstration(Box::new(PlacementDemonstration {
-                    header: Header { stamp: now.clone(), frame_id: scene.header.frame_id.clone() },
+                    header: Header { stamp: *now, frame_id: scene.header.frame_id.clone() },
                     id,
                     query_id,
                     source,
@@ -92,12 +94,12 @@ impl Context<'_> {
                 if kind != QueryResponse::STOP {
                     self.open(&query_id)?;
                 }
-                let header = Header { stamp: now.clone(), frame_id: String::new() };
+                let header = Header { stamp: *now, frame_id: String::new() };
                 let query_id = shown(&query_id);
                 Evidence::Response(Box::new(QueryResponse { header, id, query_id, source, kind, reason }))
             }
             FromPage::Retract { id, evidence_id } => Evidence::Retraction(Box::new(Retraction {
-                header: Header { stamp: now.clone(), frame_id: String::new() },
+                header: Header { stamp: *now, frame_id: String::new() },
                 id,
                 evidence_id,
                 source,
@@ -109,7 +111,7 @@ impl Context<'_> {
                     return Err("the placement that is to be given again has no place".into());
                 };
                 Evidence::Demonstration(Box::new(PlacementDemonstration {
-                    header: Header { stamp: now.clone(), frame_id: scene.header.frame_id.clone() },
+                    header: Header { stamp: *now, frame_id: scene.header.frame_id.clone() },
                     id,
                     query_id: String::new(),
                     source,
@@ -163,8 +165,12 @@ mod tests {
     #[test]
     fn only_version_4_uuids_are_ids() {
         assert!(is_uuid("0f8fad5b-d9cb-469f-a165-70867728950e"));
-        for bad in ["", "0f8fad5b-d9cb-169f-a165-70867728950e", "0F8FAD5B-d9cb-469f-a165-70867728950e", "é".repeat(18).as_str()]
-        {
+        for bad in [
+            "",
+            "0f8fad5b-d9cb-169f-a165-70867728950e",
+            "0F8FAD5B-d9cb-469f-a165-70867728950e",
+            "é".repeat(18).as_str(),
+        ] {
             assert!(!is_uuid(bad), "{bad}");
         }
     }

@@ -115,12 +115,7 @@ impl std::fmt::Debug for Server {
     }
 }
 
-async fn accept(
-    listener: tokio::net::TcpListener,
-    router: Router,
-    limits: Limits,
-    mut stopped: watch::Receiver<bool>,
-) {
+async fn accept(listener: tokio::net::TcpListener, router: Router, limits: Limits, mut stopped: watch::Receiver<bool>) {
     let room = Arc::new(Semaphore::new(limits.connections));
     let service = TowerToHyperService::new(router);
     loop {
@@ -188,10 +183,11 @@ fn check(access: &Access, headers: &HeaderMap, uri: &Uri) -> Result<(), AccessEr
 async fn serve(State(shared): State<Shared>, uri: Uri, asset: Asset) -> Response {
     let mut response = ([(CONTENT_TYPE, asset.media_type)], asset.body).into_response();
     let came_with_token = shared.access.check_token(uri.query(), None).is_ok();
-    if asset.path == "/" && came_with_token {
-        if let Ok(cookie) = HeaderValue::from_str(&shared.access.set_cookie()) {
-            response.headers_mut().insert(SET_COOKIE, cookie);
-        }
+    if asset.path == "/"
+        && came_with_token
+        && let Ok(cookie) = HeaderValue::from_str(&shared.access.set_cookie())
+    {
+        response.headers_mut().insert(SET_COOKIE, cookie);
     }
     response
 }

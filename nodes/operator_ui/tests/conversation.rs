@@ -2,105 +2,12 @@
 
 mod world;
 
-use apprentice_msgs::msg::{EvidenceReceipt, Heartbeat, PlacementDemonstration, QueryResponse, Retraction};
-use operator_ui::{Event, OperatorUi, Output, Settings};
+use apprentice_msgs::msg::{EvidenceReceipt, Heartbeat, PlacementDemonstration, QueryResponse};
+use operator_ui::Event;
 use proptest::prelude::{Just, Strategy, any, prop_oneof, proptest};
 use serde_json::{Value, json};
+use world::table::{Sent, Table};
 use world::{bounds, id, lesson, log, plan, posterior, query, receipt, record, retraction_record, scene};
-
-/// The node with a clock of its own, and everything it has told the pages put together.
-struct Table {
-    node: OperatorUi,
-    now_s: f64,
-    shown: Value,
-    refused: Vec<(Value, String)>,
-    notices: Vec<String>,
-}
-
-#[derive(Default)]
-struct Sent {
-    demonstrations: Vec<PlacementDemonstration>,
-    retractions: Vec<Retraction>,
-    responses: Vec<QueryResponse>,
-    markers: usize,
-}
-
-impl Table {
-    fn new() -> Self {
-        let node = OperatorUi::new(Settings::default());
-        Self { node, now_s: 100.0, shown: json!({}), refused: Vec::new(), notices: Vec::new() }
-    }
-
-    /// A node that has heard everything of a revision.
-    fn asking(revision: u64) -> Self {
-        let mut table = Self::new();
-        table.hear(Event::Scene(Box::new(scene("task", 0.0))));
-        table.revise(revision);
-        table
-    }
-
-    fn revise(&mut self, revision: u64) {
-        let question = query(revision);
-        self.hear(Event::Posterior(Box::new(posterior(revision))));
-        self.hear(Event::Bounds(Box::new(bounds(revision))));
-        self.hear(Event::Guess(Box::new(plan(&question.scene, &question.id, revision))));
-        self.hear(Event::Query(Box::new(question)));
-        self.hear(Event::Lesson(Box::new(lesson(revision))));
-    }
-
-    fn hear(&mut self, event: Event) -> Sent {
-        let mut sent = Sent::default();
-        let now = bus::Time::from_nanoseconds((self.now_s * 1e9) as i128);
-        for output in self.node.step(now, event) {
-            match output {
-                Output::Demonstration(message) => sent.demonstrations.push(*message),
-                Output::Retraction(message) => sent.retractions.push(*message),
-                Output::Response(message) => sent.responses.push(*message),
-                Output::Markers(_) => sent.markers += 1,
-                Output::Warn(_) => {}
-                Output::Told(told) => {
-                    let value: Value = serde_json::from_str(&told.text).expect("pages get JSON");
-                    match value["type"].as_str().expect("every text has a type") {
-                        "state" => {
-                            for (name, section) in value["sections"].as_object().expect("sections are an object") {
-                                self.shown[name] = section.clone();
-                            }
-                        }
-                        "refused" => {
-                            self.refused.push((value["id"].clone(), value["reason"].as_str().unwrap_or_default().into()));
-                        }
-                        "notice" => self.notices.push(value["text"].as_str().unwrap_or_default().into()),
-                        "tick" => {}
-                        other => panic!("pages know no '{other}'"),
-                    }
-                }
-            }
-        }
-        sent
-    }
-
-    fn say(&mut self, command: &Value) -> Sent {
-        self.hear(Event::Said(0, command.to_string()))
-    }
-
-    fn wait(&mut self, seconds: f64) -> Sent {
-        self.now_s += seconds;
-        self.hear(Event::Tick)
-    }
-
-    fn receive(&mut self, id: &str, outcome: u8, revision: u64) -> Sent {
-        self.hear(Event::Receipt(Box::new(receipt(id, outcome, revision))))
-    }
-
-    fn answer(&self, id: &str) -> &Value {
-        let answers = self.shown["answers"].as_array().expect("answers were shown");
-        answers.iter().find(|answer| answer["id"] == id).expect("the answer is shown")
-    }
-
-    fn is_open(&self) -> bool {
-        self.shown["question"]["open"] == true
-    }
-}
 
 fn place(n: u32, query_id: &str) -> Value {
     json!({"type": "place", "id": id(n), "query_id": query_id, "x_m": 0.5, "y_m": 0.45, "confidence": "fairly"})

@@ -108,7 +108,8 @@ fn the_page_needs_the_token_and_then_lives_on_a_cookie() {
 fn foreign_names_and_foreign_pages_are_turned_away_even_with_the_token() {
     let site = site(4);
     let target = format!("/?token={TOKEN}");
-    let foreign = format!("GET {target} HTTP/1.1\r\nHost: evil.example:{}\r\nConnection: close\r\n\r\n", site.address().port());
+    let foreign =
+        format!("GET {target} HTTP/1.1\r\nHost: evil.example:{}\r\nConnection: close\r\n\r\n", site.address().port());
     assert_eq!(site.raw(&foreign).0, 403);
     assert_eq!(site.get(&target, "Origin: http://evil.example\r\n").0, 403);
     assert_eq!(site.get(&target, &format!("Origin: http://{}\r\n", site.address())).0, 200);
@@ -183,13 +184,19 @@ fn only_so_many_pages_are_open_at_once_and_a_closed_one_makes_room() {
 #[test]
 fn nonsense_and_silence_do_not_hold_the_server_up() {
     let site = site(4);
-    let _silent: Vec<TcpStream> =
-        (0..32).map(|_| TcpStream::connect(site.address()).expect("it listens")).collect();
+    let _silent: Vec<TcpStream> = (0..32).map(|_| TcpStream::connect(site.address()).expect("it listens")).collect();
     std::thread::sleep(Duration::from_millis(600));
     assert_eq!(site.raw("\u{1}\u{2} nonsense\r\n\r\n").0, 400);
     let long = format!("GET / HTTP/1.1\r\nHost: {}\r\nX: {}\r\n\r\n", site.address(), "x".repeat(100_000));
     assert!(matches!(site.raw(&long).0, 0 | 431));
-    assert_eq!(site.raw(&format!("POST /?token={TOKEN} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Length: 0\r\n\r\n", site.address())).0, 405);
+    assert_eq!(
+        site.raw(&format!(
+            "POST /?token={TOKEN} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\nContent-Length: 0\r\n\r\n",
+            site.address()
+        ))
+        .0,
+        405
+    );
     assert_eq!(site.get(&format!("/?token={TOKEN}"), "").0, 200);
 }
 

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub mod table;
+
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
     EvidenceLog, EvidenceReceipt, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound,
@@ -107,7 +109,11 @@ pub fn lesson(revision: u64) -> LessonStatus {
     LessonStatus {
         revision,
         state: if taught { LessonStatus::TAUGHT } else { LessonStatus::ASKING },
-        reason: if taught { format!("The bound of {:.1} cm is below the goal of 10.0 cm.", 100.0 * bound(revision)) } else { String::new() },
+        reason: if taught {
+            format!("The bound of {:.1} cm is below the goal of 10.0 cm.", 100.0 * bound(revision))
+        } else {
+            String::new()
+        },
         query_id: if taught { String::new() } else { query(revision).id },
         questions_asked: revision as u32 + 1,
         demonstrations: revision as u32,
