@@ -1,6 +1,7 @@
 //! An arm as this crate uses it: a robot, the chain to its tool, and how it holds the target over a table.
 
 use crate::MotionSettings;
+use crate::settings::{ABOVE_MARGIN_M, LEAST_APPROACH_M};
 use arm::{
     AxisGoal, Chain, ChainError, CollisionModel, Exclusions, IkOutcome, IkSettings, Isometry3, Obstacle, Placed,
     Point3, Robot, Solid, Translation3, UrdfError, Vector3, World, about_z, solve,
@@ -48,7 +49,9 @@ impl Manipulator {
     ///
     /// # Errors
     /// A description that is wrong, or a tool link that is not there or does not move.
-    pub fn from_urdf(text: &str, settings: MotionSettings) -> Result<Self, ManipulatorError> {
+    pub fn from_urdf(text: &str, mut settings: MotionSettings) -> Result<Self, ManipulatorError> {
+        // Nearer than the margin to what it is put on, the target would count as touching it.
+        settings.release_m = settings.release_m.max(settings.margin_m + ABOVE_MARGIN_M);
         let robot = Robot::from_urdf(text)?;
         let chain = Chain::new(&robot, &settings.tool_link)?;
         let model = CollisionModel::new(&robot, &Exclusions::derived(&robot, settings.seed));
@@ -142,7 +145,7 @@ impl Cell<'_> {
         let Manipulator { robot, chain, settings, .. } = self.manipulator;
         let ik = IkSettings { restarts, seed: settings.seed, ..IkSettings::default() };
         let above = IkSettings { restarts: 0, ..ik };
-        let lifted = self.goal(at_m, base_m + crate::settings::LEAST_APPROACH_M);
+        let lifted = self.goal(at_m, base_m + LEAST_APPROACH_M);
         let mut poses = Vec::new();
         let outcome = solve(robot, chain, &self.goal(at_m, base_m), start, &ik, |q| {
             let rises = |poses: &mut Vec<_>| match solve(robot, chain, &lifted, q, &above, |_| true) {

@@ -7,7 +7,7 @@ pub struct MotionSettings {
     pub tool_link: String,
     /// Things nearer than this count as touching, metres.
     pub margin_m: f64,
-    /// Height above what it is put on at which the target is released, metres; more than the margin.
+    /// Height above what it is put on at which the target is released, metres; a larger margin raises it.
     pub release_m: f64,
     /// How far above its place the target is brought before it is lowered, metres, where the arm reaches that high.
     pub approach_m: f64,
@@ -42,6 +42,8 @@ impl Default for MotionSettings {
     }
 }
 
+/// The target is released at least this far above the margin, metres.
+pub(crate) const ABOVE_MARGIN_M: f64 = 0.003;
 /// The target is brought at least this far above its place, metres.
 pub(crate) const LEAST_APPROACH_M: f64 = 0.03;
 /// The largest change of a joint between two checks, radians or metres.

@@ -381,3 +381,13 @@ fn a_joint_that_crawls_or_an_endless_turn_does_not_stop_the_planner() {
     let plan = planner.plan(&flowers(), &batch(&draws, &map), 0.9, &joints);
     assert!(matches!(plan.outcome, PlanOutcome::Planned | PlanOutcome::NoPath), "{}", plan.reason);
 }
+
+#[test]
+fn a_larger_margin_releases_the_target_higher() {
+    let (draws, map) = posterior(5, 0.0, 1);
+    let mut planner = Planner::new(MotionSettings { margin_m: 0.02, ..MotionSettings::default() });
+    planner.set_robot(TABLE_ARM).unwrap();
+    let plan = planner.plan(&flowers(), &batch(&draws, &map), 0.9, &home());
+    assert_eq!(plan.outcome, PlanOutcome::Planned, "{}", plan.reason);
+    check_trajectory(&flowers(), &plan, &home(), 0.023);
+}
