@@ -78,8 +78,8 @@ impl CollisionModel {
         self.pairs.len()
     }
 
-    /// The first two things nearer than `margin` metres (0: that touch), or `None`. `poses` are those of
-    /// [`Robot::link_poses`]. The order is fixed: the robot with itself, with obstacles, then what it holds.
+    /// The first two things nearer than `margin` metres (0: that touch), or `None`. The robot's own links, built close
+    /// together as fingers are, count when they touch. `poses` are those of [`Robot::link_poses`]. The order is fixed: the robot with itself, with obstacles, then what it holds.
     pub fn first_contact<'a>(
         &self,
         robot: &'a Robot,
@@ -89,7 +89,7 @@ impl CollisionModel {
     ) -> Option<Contact<'a>> {
         let posed = self.pose_parts(poses);
         let name = |part: usize| robot.links[self.parts[part].link].name.as_str();
-        if let Some(&(i, j)) = self.pairs.iter().find(|&&(i, j)| meet(&posed[i], &posed[j], margin)) {
+        if let Some(&(i, j)) = self.pairs.iter().find(|&&(i, j)| meet(&posed[i], &posed[j], 0.0)) {
             return Some(Contact { a: name(i), b: name(j) });
         }
         for (i, part) in posed.iter().enumerate().filter(|(i, _)| !self.still[self.parts[*i].link]) {
