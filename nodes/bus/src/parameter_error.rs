@@ -54,7 +54,7 @@ pub enum ParameterError {
     #[error("{place}: not valid YAML: {reason}")]
     Yaml {
         /// Where.
-        place: Place,
+        place: Box<Place>,
         /// The parser's words.
         reason: String,
     },
@@ -62,7 +62,7 @@ pub enum ParameterError {
     #[error("{place}: got {got}, expected {expected}")]
     Structure {
         /// Where.
-        place: Place,
+        place: Box<Place>,
         /// What was found.
         got: String,
         /// What belongs there.
@@ -72,7 +72,7 @@ pub enum ParameterError {
     #[error("{place}: the node `{node}` has no parameter `{name}`{suggestion}")]
     Unknown {
         /// Where.
-        place: Place,
+        place: Box<Place>,
         /// The node.
         node: String,
         /// The name given.
@@ -84,7 +84,7 @@ pub enum ParameterError {
     #[error("{place}: parameter `{name}`: got the {got}, expected {expected}")]
     Type {
         /// Where.
-        place: Place,
+        place: Box<Place>,
         /// The parameter.
         name: String,
         /// Type and value given.
@@ -96,7 +96,7 @@ pub enum ParameterError {
     #[error("{place}: parameter `{name}`: got {got}, expected {expected}{suggestion}")]
     OutOfRange {
         /// Where.
-        place: Place,
+        place: Box<Place>,
         /// The parameter.
         name: String,
         /// The value given.

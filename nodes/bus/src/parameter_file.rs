@@ -48,7 +48,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Section>, ParameterError> {
         });
     }
     let text = String::from_utf8(bytes).map_err(|error| ParameterError::Yaml {
-        place: Place::File(path.to_owned(), 0),
+        place: Place::File(path.to_owned(), 0).into(),
         reason: format!("it is no UTF-8 text (byte {})", error.utf8_error().valid_up_to()),
     })?;
     parse(&text, &|line| Place::File(path.to_owned(), line))
@@ -56,14 +56,15 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Section>, ParameterError> {
 
 /// Parses the text of a parameter file; `place` says where a line is.
 pub(crate) fn parse(text: &str, place: &dyn Fn(u64) -> Place) -> Result<Vec<Section>, ParameterError> {
-    let tree = yaml::parse(text).map_err(|(line, reason)| ParameterError::Yaml { place: place(line), reason })?;
+    let tree =
+        yaml::parse(text).map_err(|(line, reason)| ParameterError::Yaml { place: place(line).into(), reason })?;
     let mut sections = Vec::new();
     match tree {
         Yaml::Null => {}
         Yaml::Map(entries) => sections_in("", entries, place, 0, &mut sections)?,
         other => {
             return Err(ParameterError::Structure {
-                place: place(1),
+                place: place(1).into(),
                 got: other.describe(),
                 expected: "`<node>:` with `ros__parameters:` under it".to_owned(),
             });
@@ -82,7 +83,7 @@ fn sections_in(
 ) -> Result<(), ParameterError> {
     for (key, line, value) in entries {
         let structure = |got: String, expected: &str| ParameterError::Structure {
-            place: place(line),
+            place: place(line).into(),
             got,
             expected: expected.to_owned(),
         };
@@ -140,7 +141,7 @@ fn parameters_in(
             }
             value => {
                 let value = to_value(value).map_err(|got| ParameterError::Structure {
-                    place: place(line),
+                    place: place(line).into(),
                     got: format!("`{}` = {got}", shorten(&name)),
                     expected: "a bool, a number, a string, or a list of one of these".to_owned(),
                 })?;
@@ -228,7 +229,7 @@ mod tests {
             let Err(ParameterError::Structure { place, .. }) = sections(text) else {
                 panic!("{text:?} was taken");
             };
-            assert_eq!(place, Place::Text(line), "{text:?}");
+            assert_eq!(*place, Place::Text(line), "{text:?}");
         }
         assert!(matches!(sections("/**:\n  ros__parameters:\n    x: 1\n    x: 2\n"), Err(ParameterError::Yaml { .. })));
         assert!(matches!(sections("a: [1"), Err(ParameterError::Yaml { .. })));

@@ -102,7 +102,7 @@ fn unknown<S: NodeSettings>(given: &Given) -> ParameterError {
         suggestion = format!("; it has {}", names().collect::<Vec<_>>().join(", "));
     }
     ParameterError::Unknown {
-        place: given.place.clone(),
+        place: given.place.clone().into(),
         node: S::NODE.to_owned(),
         name: crate::yaml::shorten(&given.name),
         suggestion,
@@ -120,7 +120,7 @@ fn convert(given: &Given, spec: &ParameterSpec, default: &Value) -> Result<Value
         _ => "a string".to_owned(),
     };
     let wrong = || ParameterError::Type {
-        place: given.place.clone(),
+        place: given.place.clone().into(),
         name: spec.name.to_owned(),
         got: match &given.value {
             ParameterValue::Array(_) => given.value.type_name().to_owned(),
@@ -163,7 +163,7 @@ fn scalar(
 ) -> Option<Result<Value, ParameterError>> {
     let out_of_range = |expected: String, suggestion: String| {
         Some(Err(ParameterError::OutOfRange {
-            place: given.place.clone(),
+            place: given.place.clone().into(),
             name: spec.name.to_owned(),
             got: crate::yaml::shorten(&value.to_string()),
             expected,

@@ -153,7 +153,10 @@ fn refusals_name_place_parameter_got_and_expected() {
 fn files_are_refused_with_their_line() {
     let file = File::new("bad", "planner:\n  ros__parameters:\n    active: true\n    alpha: 3.0\n");
     let error = from(&["--params-file", file.path()]).expect_err("out of range");
-    assert!(matches!(&error, ParameterError::OutOfRange { place: Place::File(_, 4), .. }), "{error:?}");
+    assert!(
+        matches!(&error, ParameterError::OutOfRange { place, .. } if matches!(**place, Place::File(_, 4))),
+        "{error:?}"
+    );
 }
 
 #[test]
