@@ -36,6 +36,9 @@ const reveal = () => (showsQuestion() || own.correcting ? own.revealed : ["taugh
 // ---- from the node ------------------------------------------------------------------------------------------------
 
 function sections(changed) {
+  // A node that was started anew knows only the newest bounds; this page may know the older ones.
+  const first = changed.trend?.[0]?.revision ?? 0;
+  if (first > 0) changed.trend = [...state.trend.filter((point) => point.revision < first), ...changed.trend];
   Object.assign(state, changed);
   const sent = state.answers.find((answer) => answer.id === own.sent);
   if (sent?.state === "refused" && own.sentFor !== null) Object.assign(own, { sentFor: null, problem: `Refused: ${sent.reason}` });
@@ -197,6 +200,7 @@ function renderTable() {
     heat: own.heat && reveal(),
     reveal: reveal(),
     movable: !own.look && (isTeaching() || (showsQuestion() && own.at !== null && !isAsking())),
+    locked: !isTeaching(),
     marks: own.look ? [{ x: own.look.x_m, y: own.look.y_m, label: `revision ${own.look.revision ?? "…"}` }] : [],
     guessLabel: showsQuestion() || own.correcting ? "robot's guess" : "the robot's place",
     dark: isDark(),

@@ -15,7 +15,7 @@ export class TableView {
     this.svg = svg;
     this.on = on;
     this.at = null;
-    this.view = { scene: null, plan: null, heat: false, reveal: false, movable: false, marks: [] };
+    this.view = { scene: null, plan: null, heat: false, reveal: false, movable: false, locked: false, marks: [] };
     this.layers = Object.fromEntries(["board", "objects", "guess"].map((name) => [name, svg.appendChild(element("g", { class: name }))]));
     this.target = svg.appendChild(element("g", { id: "target", "data-testid": "target", class: "target", tabindex: "0", role: "application" }));
     this.target.addEventListener("pointerdown", (event) => this.grab(event));
@@ -101,6 +101,7 @@ export class TableView {
     const blocked = this.at && obstruction(scene, this.at);
     this.target.setAttribute("transform", `translate(${p.x.toFixed(2)} ${p.y.toFixed(2)})`);
     this.target.classList.toggle("blocked", Boolean(blocked));
+    this.target.classList.toggle("locked", this.view.locked);
     this.target.classList.toggle("waiting", !this.at);
     const guess = this.view.reveal && this.view.plan?.map_placement;
     this.target.lastChild.setAttribute("y", this.at && guess && guess.y_m < this.at.y ? -r - 9 : r + 17);
@@ -115,8 +116,11 @@ export class TableView {
     drawGuess(this.layers.guess, this, scene, this.view.reveal ? this.view.plan : null, this.view.marks, movable ? this.at : null);
   }
 
+  /** Whether the target may be moved now. */
+  isFree() { return this.view.movable && !this.view.locked; }
+
   grab(event) {
-    if (!this.view.movable || event.button > 0) return;
+    if (!this.isFree() || event.button > 0) return;
     event.preventDefault();
     this.target.focus({ preventScroll: true });
     const p = this.pointer(event), now = this.at ? this.px(this.at) : this.box.tray;
@@ -149,7 +153,7 @@ export class TableView {
   }
 
   tap(event) {
-    if (!this.view.movable || this.target.contains(event.target) || event.timeStamp - (this.settledAt ?? -1e9) < 250) return;
+    if (!this.isFree() || this.target.contains(event.target) || event.timeStamp - (this.settledAt ?? -1e9) < 250) return;
     const at = this.metres(this.pointer(event)), { scene } = this.view;
     if (at.x < 0 || at.y < 0 || at.x > scene.width_m || at.y > scene.depth_m) return;
     this.settle(at);
@@ -165,7 +169,7 @@ export class TableView {
 
   key(event) {
     const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    if (!this.view.movable) return;
+    if (!this.isFree()) return;
     if (event.key === "Enter") {
       event.preventDefault();
       this.on.submitted();
