@@ -19,6 +19,7 @@ mod suite;
 mod summary;
 mod supervisor;
 mod watch;
+mod words;
 
 pub use backoff::{Backoff, HEALTHY_AFTER, LONGEST, SHORTEST};
 pub use child::{Child, NodeLog};

@@ -1,5 +1,6 @@
 //! The main loop: processes, the clock, signals and the graph on one side, supervisor, story and ledger on the other.
 
+use crate::words::{closing_words, told};
 use crate::{
     Action, BringupError, Child, Circumstances, Console, Exit, Kind, LaunchNode, Ledger, Level, NodeCount, NodeLog,
     Settings, Story, Summary, Supervisor, Topic, Watch,
@@ -372,49 +373,5 @@ impl Suite {
 
     fn say(&self, kind: Kind, text: &str) {
         self.plan.console.say(kind, text);
-    }
-}
-
-/// How a process ended, in words.
-fn told(exit: &Exit) -> String {
-    match exit {
-        Exit::Code(code) => format!("exit code {code}"),
-        Exit::Signal(signal) => match signal_hook::low_level::signal_name(*signal) {
-            Some(name) => format!("{name}, signal {signal}"),
-            None => format!("signal {signal}"),
-        },
-        Exit::NotStarted(reason) => format!("it cannot be started: {reason}"),
-    }
-}
-
-fn closing_words(summary: &Summary) -> Vec<String> {
-    let centimetres = |m: Option<f64>| m.map_or("none".to_owned(), |m| format!("{:.1} cm", 100.0 * m));
-    let Percentile { p50, p99 } = Percentile::of(summary);
-    let mut words = vec![
-        format!("{}: {}", summary.state.replace('_', " "), summary.why),
-        format!(
-            "{} questions, {} answers, last bound {} (\u{3b5} = {}), {:.1} s",
-            summary.questions_asked,
-            summary.answers,
-            centimetres(summary.last_bound_m),
-            centimetres(summary.epsilon_m),
-            summary.wall_time_s
-        ),
-        format!("answer to next question: median {p50}, 99th percentile {p99}"),
-    ];
-    words.extend(summary.bag.iter().map(|bag| format!("the bag is finished: {bag}")));
-    words
-}
-
-struct Percentile {
-    p50: String,
-    p99: String,
-}
-
-impl Percentile {
-    fn of(summary: &Summary) -> Self {
-        let text = |ms: Option<f64>| ms.map_or("none".to_owned(), |ms| format!("{ms:.0} ms"));
-        let percentiles = summary.answer_to_next_question_ms;
-        Self { p50: text(percentiles.p50), p99: text(percentiles.p99) }
     }
 }
