@@ -55,6 +55,7 @@ pub struct Bus<E> {
     queue: Arc<Queue<E>>,
     stopper: Stopper,
     timers: Vec<Timer<E>>,
+    timer_was_last: bool,
     guards: Vec<Guard>,
     overflow: Overflow,
     housekeeper: Option<std::thread::JoinHandle<()>>,

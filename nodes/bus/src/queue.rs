@@ -111,10 +111,15 @@ impl<E: Send + 'static> Queue<E> {
         lost
     }
 
-    /// Takes the oldest event, waiting until there is one, or a wake-up, or `timeout` (for ever without one).
-    pub(crate) fn pop(&self, timeout: Option<Duration>) -> Popped<E> {
+    /// How often the queue was woken so far; to be taken before looking at what a wake-up is about.
+    pub(crate) fn wakes(&self) -> u64 {
+        self.lock().wakes
+    }
+
+    /// Takes the oldest event, waiting until there is one, or a wake-up after the first `wakes`, or `timeout` (for
+    /// ever without one).
+    pub(crate) fn pop(&self, wakes: u64, timeout: Option<Duration>) -> Popped<E> {
         let mut inner = self.lock();
-        let wakes = inner.wakes;
         let quiet = |inner: &mut Inner<E>| inner.items.is_empty() && inner.wakes == wakes && !self.stopper.stopped();
         inner = match timeout {
             None => self.filled.wait_while(inner, quiet).unwrap_or_else(PoisonError::into_inner),
@@ -164,7 +169,7 @@ mod tests {
             })
         };
         for wanted in 0..100 {
-            assert_eq!(queue.pop(None), Popped::Event(wanted));
+            assert_eq!(queue.pop(0, None), Popped::Event(wanted));
             assert!(queue.len() <= 4);
         }
         sender.join().expect("the sender ends");
@@ -178,7 +183,7 @@ mod tests {
         queue.push("new", Overflow::DropOldest);
         assert_eq!(queue.push("newest", Overflow::DropOldest), 1);
         for wanted in ["reliable", "new", "newest"] {
-            assert_eq!(queue.pop(None), Popped::Event(wanted));
+            assert_eq!(queue.pop(0, None), Popped::Event(wanted));
         }
     }
 
@@ -194,6 +199,6 @@ mod tests {
         thread::sleep(Duration::from_millis(20));
         stopper.stop();
         sender.join().expect("the sender ends");
-        assert_eq!(queue.pop(None), Popped::Stopped);
+        assert_eq!(queue.pop(0, None), Popped::Stopped);
     }
 }

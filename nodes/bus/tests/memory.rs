@@ -264,6 +264,26 @@ fn timers_events_and_senders_meet_in_one_queue() {
 }
 
 #[test]
+fn a_timer_that_is_always_due_does_not_keep_events_away() {
+    let graph = MemoryGraph::new();
+    let mut node = open(&graph, &[]);
+    node.every(Duration::from_millis(1), || Event::Tick);
+    std::thread::sleep(Duration::from_millis(3));
+    let sender = node.sender();
+    for index in 0..5 {
+        sender.send(Event::Text(index.to_string()));
+    }
+    let mut texts = Vec::new();
+    for _ in 0..11 {
+        std::thread::sleep(Duration::from_millis(3));
+        if let Some((_, Event::Text(data))) = node.next() {
+            texts.push(data);
+        }
+    }
+    assert_eq!(texts, ["0", "1", "2", "3", "4"]);
+}
+
+#[test]
 fn shutdown_and_stoppers_end_nodes() {
     let graph = MemoryGraph::new();
     let mut first = open(&graph, &["-r", "__node:=first"]);

@@ -59,7 +59,7 @@ impl<E: Send + 'static> Bus<E> {
                     let alone = MemoryGraph::new();
                     (Arc::new(alone.join(&name, &stopper)), Some(alone), Overflow::Grow)
                 } else {
-                    let transport = DdsTransport::join(&environment, &name, log.id())?;
+                    let transport = DdsTransport::join(&environment, &name, log.id(), &stopper)?;
                     (Arc::new(transport), None, Overflow::Block)
                 }
             }
@@ -73,6 +73,7 @@ impl<E: Send + 'static> Bus<E> {
             queue,
             stopper,
             timers: Vec::new(),
+            timer_was_last: false,
             guards: Vec::new(),
             overflow,
             housekeeper: None,

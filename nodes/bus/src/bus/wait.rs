@@ -66,12 +66,20 @@ impl<E: Send + 'static> Bus<E> {
         if let Some(log) = &self.log {
             log.enter();
         }
+        // Timers that are always due must not keep events away: after a timer, an event has its turn.
+        if std::mem::take(&mut self.timer_was_last)
+            && let Popped::Event(event) = self.queue.pop(0, Some(Duration::ZERO))
+        {
+            return Next::Event(self.now(), event);
+        }
         loop {
             if self.stopper.stopped() {
                 return Next::Shutdown;
             }
+            let wakes = self.queue.wakes();
             let now_ns = self.clock.timer_ns();
             if let Some(event) = self.due_timer(now_ns) {
+                self.timer_was_last = true;
                 return Next::Event(self.now(), event);
             }
             let left = until.map(|until| until.saturating_duration_since(Instant::now()));
@@ -80,7 +88,7 @@ impl<E: Send + 'static> Bus<E> {
                 (Some(left), Some(timer)) => Some(left.min(timer)),
                 (left, timer) => left.or(timer),
             };
-            match self.queue.pop(limit) {
+            match self.queue.pop(wakes, limit) {
                 Popped::Event(event) => return Next::Event(self.now(), event),
                 Popped::Stopped => return Next::Shutdown,
                 Popped::Nothing => {

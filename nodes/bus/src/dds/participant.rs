@@ -3,6 +3,7 @@
 use std::{
     collections::BTreeMap,
     net::{IpAddr, Ipv4Addr},
+    panic::{AssertUnwindSafe, catch_unwind},
     sync::{Arc, Mutex, PoisonError, Weak},
     thread::JoinHandle,
     time::Duration,
@@ -27,6 +28,7 @@ use crate::{
     logging,
     names::NodeName,
     qos::{Durability, QosProfile, Reliability},
+    stop::Stopper,
     transport::{Deliver, EndpointInfo, Guard, Handler, Sink, TopicInfo, Transport, weakest},
 };
 
@@ -64,7 +66,12 @@ impl DdsTransport {
     ///
     /// # Errors
     /// When there are no sockets to be had, or the name is refused.
-    pub(crate) fn join(environment: &Environment, name: &NodeName, log_id: u64) -> Result<DdsTransport, BusError> {
+    pub(crate) fn join(
+        environment: &Environment,
+        name: &NodeName,
+        log_id: u64,
+        stopper: &Stopper,
+    ) -> Result<DdsTransport, BusError> {
         let what = format!("join the DDS domain {}", environment.domain);
         let mut builder = DomainParticipantBuilder::new(environment.domain);
         if environment.range != Range::Subnet {
@@ -96,12 +103,19 @@ impl DdsTransport {
         executor.spawn(follow_nodes(&shared, &info_topic).map_err(|error| refused(&what)(&error))?).detach();
         let (stop, stopped) = channel::bounded(1);
         let running = Arc::clone(&executor);
+        let stopper = stopper.clone();
         let thread = std::thread::Builder::new()
             .name("readers".to_owned())
             .spawn(move || {
                 logging::enter(log_id);
-                // Either way of ending means that the transport is gone.
-                let _ = smol::block_on(running.run(stopped.recv()));
+                let work = AssertUnwindSafe(|| {
+                    // Either way of ending means that the transport is gone.
+                    let _ = smol::block_on(running.run(stopped.recv()));
+                });
+                if catch_unwind(work).is_err() {
+                    log::error!("the thread that reads from the graph has failed; this node ends");
+                    stopper.stop();
+                }
             })
             .map_err(|source| BusError::System { what: "a thread", source })?;
         shared.announce();

@@ -1,13 +1,17 @@
 //! The claims about topics, discovery, time and signals.
 
-use std::{process::Command, time::Duration};
+use std::{
+    process::{Command, Stdio},
+    time::Duration,
+};
 
 use apprentice_msgs::{Message, msg::Heartbeat, rosgraph_msgs::Clock, std_msgs::String as Text, to_cdr};
 use bus::{Durability, Next, Qos, QosProfile, Reliability};
 
 use crate::{
-    Peer,
+    Peer, ROLE,
     common::{Event, open, text, until, wait_for},
+    this_program,
 };
 
 pub fn peer_process() {
@@ -202,4 +206,37 @@ pub fn sigterm() {
     let status = peer.0.wait().expect("the peer ends");
     assert_eq!(status.code(), Some(0));
     until("the peer has left the graph", || ping.subscriptions() == 0);
+}
+
+pub fn orphan() {
+    let mut node = open(&["-r", "__node:=watcher"]);
+    let ping = node.publisher::<Text>("ping", Qos::Event).expect("a publisher");
+    let program = std::env::current_exe().expect("this program has a path");
+    let mut parent = Command::new("sh")
+        .args(["-c", "APPRENTICE_PARENT_PID=$$ \"$0\" & wait"])
+        .arg(program)
+        .env(ROLE, "peer")
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("a shell");
+    until("the peer listens", || ping.subscriptions() == 1);
+    parent.kill().expect("the shell can be killed");
+    let output = parent.wait_with_output().expect("the shell ends, and the peer with it");
+    until("the peer has left the graph", || ping.subscriptions() == 0);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(errors.contains("[WARN] [apprentice.peer]: the process"), "{errors}");
+}
+
+pub fn wrong_environment() {
+    for (variables, words) in [
+        (vec![("ROS_DOMAIN_ID", "233")], "ROS_DOMAIN_ID=`233`: expected an integer from 0 to 232"),
+        (vec![("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCAL")], "one of SUBNET, LOCALHOST, OFF"),
+        (vec![("ROS_SECURITY_ENABLE", "true"), ("ROS_SECURITY_STRATEGY", "Enforce")], "DDS security is not built"),
+    ] {
+        let output = this_program("peer").envs(variables).output().expect("the peer starts");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{errors}");
+        assert!(errors.starts_with("error: peer: ") && errors.contains(words), "{errors}");
+        assert_eq!(errors.lines().count(), 1, "{errors}");
+    }
 }

@@ -77,6 +77,8 @@ fn run_claims() -> ExitCode {
         ("discovery_tells_names_types_qos_and_nodes", claims::discovery),
         ("simulated_time_comes_from_clock", claims::sim_time),
         ("sigterm_ends_a_node_cleanly", claims::sigterm),
+        ("a_node_whose_parent_is_killed_ends", claims::orphan),
+        ("a_wrong_environment_is_refused_with_exit_code_2", claims::wrong_environment),
         ("parameters_over_the_enhanced_mapping", services::enhanced),
         ("parameters_over_the_cyclone_mapping", services::cyclone),
     ];

@@ -3,25 +3,32 @@
 use std::process::ExitCode;
 
 use apprentice_msgs::std_msgs::String as Text;
-use bus::Qos;
+use bus::{Arguments, Bus, Graph, NodeError, Qos};
 
-use crate::common::{Event, open, text};
+use crate::common::{Settings, text};
 
 /// Runs until it is asked to end.
 pub fn run() -> ExitCode {
-    let mut bus = open(&["--ros-args", "-r", "__node:=peer"]);
-    let state = bus.publisher::<Text>("peer_state", Qos::State).expect("a publisher");
-    let history = bus.publisher::<Text>("peer_log", Qos::Log).expect("a publisher");
-    let pong = bus.publisher::<Text>("pong", Qos::Event).expect("a publisher");
-    bus.subscribe("ping", Qos::Event, |message: Text| Event::Text(message.data)).expect("a subscription");
+    match answer() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => ExitCode::from(u8::try_from(error.report("peer")).unwrap_or(1)),
+    }
+}
+
+/// Answers.
+fn answer() -> Result<(), NodeError> {
+    let arguments = Arguments::parse(&["-r".to_owned(), "__node:=peer".to_owned()])?;
+    let mut bus: Bus<String> = Bus::open(&Graph::Dds, &arguments, &arguments.settings::<Settings>()?)?;
+    let state = bus.publisher::<Text>("peer_state", Qos::State)?;
+    let history = bus.publisher::<Text>("peer_log", Qos::Log)?;
+    let pong = bus.publisher::<Text>("pong", Qos::Event)?;
+    bus.subscribe("ping", Qos::Event, |message: Text| message.data)?;
     for index in 0..5 {
-        state.publish(&text(&format!("state {index}"))).expect("published");
-        history.publish(&text(&format!("log {index}"))).expect("published");
+        state.publish(&text(&format!("state {index}")))?;
+        history.publish(&text(&format!("log {index}")))?;
     }
-    while let Some((_, event)) = bus.next() {
-        if let Event::Text(data) = event {
-            pong.publish(&text(&format!("{data} back"))).expect("published");
-        }
+    while let Some((_, data)) = bus.next() {
+        pong.publish(&text(&format!("{data} back")))?;
     }
-    ExitCode::SUCCESS
+    Ok(())
 }
