@@ -4,7 +4,7 @@ use crate::ReplayError;
 use apprentice_msgs::msg::{
     Candidates, EvidenceLog, LessonStatus, NodeSettings, PerformanceBounds, PlacementPlan, PlacementQuery, Posterior,
 };
-use apprentice_msgs::{Message, from_cdr, std_msgs};
+use apprentice_msgs::{Message, from_cdr, std_msgs, to_cdr};
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -137,9 +137,11 @@ fn insert<M: Message>(
     revision: impl Fn(&M) -> u64,
 ) -> Result<(), ReplayError> {
     let message: M = decode(topic, index, cdr)?;
+    // Encoded anew, since DDS pads payloads to a multiple of four; numbers keep their bits.
+    let bytes = to_cdr(&message);
     let same = recorded.entry(revision(&message)).or_default();
-    if !same.iter().any(|(_, bytes)| bytes == cdr) {
-        same.push((message, cdr.to_vec()));
+    if !same.iter().any(|(_, known)| *known == bytes) {
+        same.push((message, bytes));
     }
     Ok(())
 }

@@ -5,14 +5,11 @@
 
 mod access;
 mod choice;
-mod climb;
-mod hill;
 mod losses;
 mod manipulator;
 mod motion;
 mod plan;
 mod reach;
-mod region;
 mod rrt;
 mod settings;
 mod tabulated;

@@ -4,10 +4,7 @@
 //! terms are the same; so per draw there is one sum for every *set* of moved features, and per (draw, scene) only the
 //! moved ones are added to it. Rewards on the grid are `f32`: they only choose the hill, whose top is then found in `f64`.
 
-use crate::climb::climb;
-use crate::hill::Basis;
-use crate::region::Region;
-use scene::{Field, Grid, Point, Rbf, Scene};
+use scene::{Basis, Field, Grid, Point, Rbf, Region, Scene, climb};
 use std::collections::BTreeMap;
 
 /// Grid points per axis on which hills are told apart.

@@ -73,7 +73,7 @@ impl Object {
         match self.shape {
             Shape::Cylinder { radius_m, .. } => (self.position_m.distance(at_m) - radius_m).max(0.0),
             Shape::Box { width_m, depth_m, .. } => {
-                let (sin, cos) = self.yaw_rad.sin_cos();
+                let (sin, cos) = libm::sincos(self.yaw_rad);
                 let (dx, dy) = (at_m.x - self.position_m.x, at_m.y - self.position_m.y);
                 let own = Point::new(cos * dx + sin * dy, cos * dy - sin * dx);
                 let outside =

@@ -1,9 +1,9 @@
 //! From a free point to the top of its hill within the free region: Newton's method with an active set, so that a top
 //! beyond an edge or an object ends on the boundary, at the best point there.
 
+use crate::Point;
 use crate::hill::{Basis, Derivatives};
 use crate::region::{Outline, Region};
-use scene::Point;
 
 const STEPS: usize = 24;
 const HALVINGS: usize = 8;
@@ -19,8 +19,8 @@ struct Step {
     newton: bool,
 }
 
-/// Climbs wᵀφ from `start`, with steps no longer than `reach_m`; returns the top. Never ends below where it started.
-pub(crate) fn climb(basis: &Basis, region: &Region, w: &[f64], start: Point, reach_m: f64) -> Point {
+/// Climbs wᵀφ from `start`, with steps no longer than `reach_m`; returns the top. Metres. Never ends below where it started.
+pub fn climb(basis: &Basis, region: &Region, w: &[f64], start: Point, reach_m: f64) -> Point {
     let Some((mut at, mut on)) = region.pull(start) else { return start };
     let mut d = basis.derivatives(w, at);
     for _ in 0..STEPS {
@@ -61,8 +61,10 @@ fn direction(d: &Derivatives, region: &Region, at: Point, on: Option<Outline>, r
             let slope = gx * t.x + gy * t.y;
             // Along the outline, which bends away from the object's normal.
             let bend = hxx * t.x * t.x + 2.0 * hxy * t.x * t.y + hyy * t.y * t.y - push * curvature;
-            let along = along(slope, bend, reach_m)?;
-            return Some(Step { by: Point::new(along.0 * t.x, along.0 * t.y), newton: along.1 });
+            let (s, newton) = along(slope, bend, reach_m)?;
+            // Towards the object as the outline bends, and a little beyond: the region puts the point back onto it.
+            let inward = 0.5 * curvature * s * s;
+            return Some(Step { by: Point::new(s * t.x - inward * normal.x, s * t.y - inward * normal.y), newton });
         }
     }
     let held_x = (at.x <= region.low.x && gx < 0.0) || (at.x >= region.high.x && gx > 0.0);

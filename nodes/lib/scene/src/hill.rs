@@ -1,10 +1,10 @@
 //! The reward of one weight vector in one scene, with its derivatives, quickly: the nine fixed centres share three factors
 //! along each axis.
 
-use scene::{FIXED_CENTRES, Point, Rbf, SIGMA_SQUARED, Scene, exp};
+use crate::{FIXED_CENTRES, MAX_OBJECTS, Point, Rbf, SIGMA_SQUARED, Scene, exp};
 
 const N_FIXED: usize = FIXED_CENTRES.len();
-const MAX_FEATURES: usize = scene::MAX_OBJECTS + N_FIXED;
+const MAX_FEATURES: usize = MAX_OBJECTS + N_FIXED;
 /// Coordinates of the fixed centres along each axis, in the order they first appear in [`FIXED_CENTRES`].
 const FIXED_X: [f64; 3] = [FIXED_CENTRES[0].x, FIXED_CENTRES[1].x, FIXED_CENTRES[2].x];
 const FIXED_Y: [f64; 3] = [FIXED_CENTRES[0].y, FIXED_CENTRES[3].y, FIXED_CENTRES[6].y];
@@ -14,7 +14,7 @@ pub(crate) type Derivatives = [f64; 6];
 
 /// The part of a reward that is the same for every weight vector.
 #[derive(Debug, Clone)]
-pub(crate) struct Basis {
+pub struct Basis {
     /// Centres of the objects, normalised.
     objects: Vec<Point>,
     width_m: f64,
@@ -22,6 +22,7 @@ pub(crate) struct Basis {
 }
 
 impl Basis {
+    /// The basis of a scene.
     pub fn new(scene: &Scene) -> Self {
         let mut objects = Rbf::new(scene).centres;
         objects.truncate(objects.len() - N_FIXED);

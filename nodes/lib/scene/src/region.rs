@@ -1,17 +1,18 @@
 //! Where the target's centre may be, as a region with a boundary one can slide along: a rectangle without the offset
-//! outlines of the objects. The same region as [`scene::Occupied`], which only says yes or no.
+//! outlines of the objects. The same region as [`crate::Occupied`], which only says yes or no.
 
-use scene::{Point, Scene, Shape};
+use crate::{Point, Scene, Shape};
 
 /// A point is put this far outside an outline, so that it is free in spite of rounding, metres.
 const OUTSIDE_M: f64 = 1e-9;
 /// A point this near to an outline is on it, metres.
 const ON_M: f64 = 1e-7;
 
+/// The free region of a scene.
 #[derive(Debug, Clone)]
-pub(crate) struct Region {
-    pub low: Point,
-    pub high: Point,
+pub struct Region {
+    pub(crate) low: Point,
+    pub(crate) high: Point,
     /// Radius of the target's bounding circle: its centre keeps that far from every block.
     margin_m: f64,
     blocks: Vec<Block>,
@@ -37,6 +38,7 @@ pub(crate) struct Outline {
 }
 
 impl Region {
+    /// The free region of a scene, for its target.
     pub fn new(scene: &Scene) -> Self {
         let margin_m = scene.target.shape.bounding_radius_m();
         let blocks = scene.objects.iter().filter(|object| !object.supports).map(|object| {
@@ -57,7 +59,7 @@ impl Region {
 
     /// The point of the region that a step to `at` ends on: clamped to the rectangle, and put back onto an outline it has
     /// crossed. `None` when it then meets something else.
-    pub fn pull(&self, at: Point) -> Option<(Point, Option<Outline>)> {
+    pub(crate) fn pull(&self, at: Point) -> Option<(Point, Option<Outline>)> {
         let at = self.clamp(at);
         match self.at(at) {
             Place::Free(outline) => Some((at, outline)),
