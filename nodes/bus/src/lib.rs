@@ -3,6 +3,16 @@
 //! This is the only crate that names `ros2-client` and RustDDS. A node opens a [`Bus`] on a [`Graph`] (DDS, or one
 //! within the process for tests and replays), makes its endpoints, and takes everything that happens from
 //! [`Bus::next`] as one enum of its own.
+//!
+//! What holds on both graphs:
+//! - Both carry CDR bytes, and one decoder reads them. A message that cannot be decoded is counted, reported and left
+//!   out; so are messages of another type than the one subscribed to.
+//! - Messages of one publisher on one topic arrive in order. A reliable subscription waits when the node's queue is
+//!   full; a best-effort one loses its oldest messages, counted.
+//! - Settings, heartbeat (2 Hz), `/diagnostics` (1 Hz), `/rosout` and the parameter services come with
+//!   [`Bus::open`]; the node does nothing for them.
+//! - SIGINT, SIGTERM, the death of the process named in `APPRENTICE_PARENT_PID`, [`MemoryGraph::shutdown`] and
+//!   [`Stopper::stop`] all have [`Bus::next`] return `None`; a second SIGINT ends the process at once.
 
 mod arguments;
 mod bus;
