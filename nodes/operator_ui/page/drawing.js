@@ -19,6 +19,12 @@ export function footprint(object, k, className) {
   return element("rect", { class: className, x: -w / 2, y: -d / 2, width: w, height: d, rx: Math.min(4, w / 6, d / 6), transform: `rotate(${(-object.yaw_rad * 180) / Math.PI})` });
 }
 
+/** How far a label about a point has to move sideways to stay inside the drawing, pixels. */
+export function sideways(table, x, text) {
+  const half = text.length * 3.9 + 4;
+  return Math.max(0, half - x) - Math.max(0, x + half - table.box.width);
+}
+
 /** The table with its scale bar, the maps on it, and the place beside it where the target waits. */
 export function drawBoard(layer, table, { heat, shade, movable }) {
   const { x0, y0, board, k, tray } = table.box, { scene } = table.view, pieces = [];
@@ -58,9 +64,10 @@ export function drawObjects(layer, table, scene, onHeat) {
     if (object.supports) group.append(element("circle", { class: "supports", r: r + 4 }));
     const above = p.y + r + 34 > y0 + board.h;
     const line = above ? -r - 20 : r + 15;
+    const x = sideways(table, p.x, object.label.length > shapeWords(object).length ? object.label : shapeWords(object));
     group.append(
-      element("text", { class: "label", y: line, "text-anchor": "middle" }, object.label),
-      element("text", { class: "sub-label", y: line + 13, "text-anchor": "middle" }, shapeWords(object)),
+      element("text", { class: "label", x, y: line, "text-anchor": "middle" }, object.label),
+      element("text", { class: "sub-label", x, y: line + 13, "text-anchor": "middle" }, shapeWords(object)),
     );
     return group;
   }));
@@ -73,7 +80,7 @@ export function drawGuess(layer, table, scene, plan, marks, own) {
     const p = table.px(at), group = element("g", { class: className, transform: `translate(${p.x.toFixed(2)} ${p.y.toFixed(2)})` });
     const r = boundingRadius(scene.target) * k;
     group.append(footprint({ ...scene.target, yaw_rad: 0 }, k, "body"), element("path", { class: "cross", d: "M0-6 6 0 0 6-6 0Z" }));
-    if (label) group.append(element("text", { class: "label", y: below ? r + 16 : -r - 8, "text-anchor": "middle" }, label));
+    if (label) group.append(element("text", { class: "label", x: sideways(table, p.x, label), y: below ? r + 16 : -r - 8, "text-anchor": "middle" }, label));
     return group;
   };
   if (plan && plan.map_placement) {

@@ -173,8 +173,9 @@ function renderLesson() {
   const asking = showsQuestion();
   text("question-number", own.correcting ? "Your correction" : asking ? `Question ${lesson?.questions_asked || ""}` : "The lesson");
   text("question-id", asking ? question.id : "", asking ? question.id : "");
-  text("question-title", own.correcting || asking ? `Where does the ${name} belong?` : { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking." }[word] ?? "One moment…");
-  text("question-reason", own.correcting ? `Show where the ${name} belongs on the table as it is.` : asking ? question.reason : lesson?.reason || "The page is waiting for the robot's first question.");
+  const [, asked, why] = asking ? question.reason.match(/^([^?]{1,200}\?)\s+(.+)$/s) ?? [] : [];
+  text("question-title", own.correcting || asking ? asked ?? `Where does the ${name} belong?` : { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking." }[word] ?? "One moment…");
+  text("question-reason", own.correcting ? `Show where the ${name} belongs on the table as it is.` : asking ? why ?? question.reason : lesson?.reason || "The page is waiting for the robot's first question.");
   const epsilon = lesson?.epsilon_m ?? question?.epsilon_m ?? null, bound = bounds?.bound_m ?? null;
   text("bound", bound === null ? (bounds ? "no bound yet" : "–") : cm(bound), bound);
   $("bound").dataset.revision = bounds?.revision ?? "";

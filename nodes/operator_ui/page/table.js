@@ -2,7 +2,7 @@
 
 import { boundingRadius, isUnreachable, nearestFree, obstruction, shapeWords } from "./geometry.js";
 import { rewardPicture, shadePicture } from "./maps.js";
-import { drawBoard, drawGuess, drawObjects, footprint, element } from "./drawing.js";
+import { drawBoard, drawGuess, drawObjects, element, footprint, sideways } from "./drawing.js";
 
 const STEP_M = 0.005;
 const BIG_STEP_M = 0.02;
@@ -105,6 +105,7 @@ export class TableView {
     this.target.classList.toggle("waiting", !this.at);
     const guess = this.view.reveal && this.view.plan?.map_placement;
     this.target.lastChild.setAttribute("y", this.at && guess && guess.y_m < this.at.y ? -r - 9 : r + 17);
+    this.target.lastChild.setAttribute("x", sideways(this, p.x, target.label));
     const robust = guess && (this.view.plan.robust_placement ?? guess);
     const isNear = (spot) => Math.hypot(spot.x_m - this.at.x, spot.y_m - this.at.y) * this.box.k < 2 * r + 24;
     this.target.classList.toggle("close", Boolean(this.at && guess && (isNear(guess) || isNear(robust))));
