@@ -137,8 +137,8 @@ def main():
     late_posterior = late.reader("posterior", Posterior, STATE)
     late_bounds = late.reader("bounds", PerformanceBounds, STATE)
     told = plain(
-        wait("the posterior, as a late joiner", late_posterior, lambda p: True),
-        wait("the bounds, as a late joiner", late_bounds, lambda b: True),
+        wait("the posterior, as a late joiner", late_posterior, lambda p: p.revision == receipt.revision),
+        wait("the bounds, as a late joiner", late_bounds, lambda b: b.revision == receipt.revision),
     )
     answer = {"receipt_outcome": receipt.outcome, "receipt_reason": receipt.reason, "revision": receipt.revision}
     print(json.dumps({**answer, "first": plain(posterior, bounds), "late": told}))

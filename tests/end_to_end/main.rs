@@ -1,0 +1,14 @@
+//! Whole lessons: the executable with every node in a process of its own, over DDS on loopback, as a person starts it.
+
+mod bad_command_lines;
+mod chromium;
+mod foreign_bags;
+mod killed_nodes;
+mod operator_page;
+mod peer;
+mod python;
+mod recorded;
+mod replayed;
+mod suite;
+mod taught;
+mod whole_loop;

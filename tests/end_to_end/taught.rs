@@ -1,0 +1,44 @@
+//! One lesson with a simulated person, from the command to "taught"; several tests look at what it left.
+
+use crate::suite::{Suite, fresh_folder};
+use serde_json::Value;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+/// Longest lesson that is not broken, on two busy cores.
+const LIMIT: Duration = Duration::from_secs(240);
+
+/// What a lesson left.
+#[derive(Debug, Clone)]
+pub struct Taught {
+    /// The JSON summary.
+    pub summary: Value,
+    /// The bag's folder.
+    pub bag: PathBuf,
+    /// What the terminal showed.
+    pub shown: String,
+}
+
+static LESSON: Mutex<Option<Taught>> = Mutex::new(None);
+
+/// The lesson on flowers with seed 1; taught once in this process.
+pub fn flowers() -> Taught {
+    let mut lesson = LESSON.lock().unwrap_or_else(PoisonError::into_inner);
+    lesson.get_or_insert_with(|| teach("flowers", &["--seed", "1"])).clone()
+}
+
+/// Teaches a lesson until it ends by itself, which it must do well.
+pub fn teach(name: &str, arguments: &[&str]) -> Taught {
+    let file = fresh_folder(&format!("{name}-summary")).join("summary.json");
+    let text = file.to_string_lossy().into_owned();
+    let mut all = vec!["--headless", "--until-taught", "--summary", &text];
+    all.extend(arguments);
+    let mut suite = Suite::start(name, &all);
+    let status = suite.wait(LIMIT);
+    assert!(status.success(), "the lesson ended with {status}\n{}", suite.dump());
+    let summary =
+        std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("no summary: {error}\n{}", suite.dump()));
+    let summary = serde_json::from_str(&summary).expect("the summary is JSON");
+    Taught { summary, bag: suite.bag(), shown: suite.shown() }
+}

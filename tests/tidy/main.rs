@@ -1,0 +1,5 @@
+//! The rules of the tree that no compiler checks: who may depend on what, what pure crates must not touch, what a file looks like.
+
+mod files;
+mod rules;
+mod shipped;
