@@ -9,7 +9,7 @@ use apprentice_msgs::msg::{
     Retraction, TableScene,
 };
 use apprentice_msgs::std_msgs::Header;
-use posterior::{Draws, evidence_hash};
+use posterior::{Demonstration, Draws, Lesson, evidence_hash};
 use std::collections::VecDeque;
 
 /// Ticks an answer to an unheard-of question is kept for, in case the question is still on its way.
@@ -305,6 +305,12 @@ impl RewardPosterior {
         vec![Output::Posterior(message)]
     }
 
+    fn sample(&self, demonstrations: &[Demonstration]) -> Result<Draws, String> {
+        let (_, task) = self.evidence.task().ok_or("no scene has named the weights yet")?;
+        let (settings, seed) = (self.settings.sampler(), self.settings.seed.unsigned_abs());
+        posterior::sample(&settings, seed, &Lesson::new(task), demonstrations).map_err(|error| error.to_string())
+    }
+
     fn message(&self, scene: TableScene, names: Vec<String>, hash: &str, n: usize, draws: &Draws) -> Posterior {
         let (outcome, reason) = if draws.rhat_max <= risk::MAX_RHAT {
             (Posterior::READY, String::new())
@@ -333,7 +339,7 @@ impl RewardPosterior {
             draws: draws.values.clone(),
             map_weights: draws.map_weights.clone(),
             map_log_likelihood: draws.map_log_likelihood,
-            log_likelihood_mean: draws.log_likelihood.iter().sum::<f64>() / n_draws as f64,
+            log_likelihood_mean: draws.log_likelihood_mean(),
             rhat_max: draws.rhat_max,
             ess_bulk_min: draws.ess_bulk_min,
             ess_tail_min: draws.ess_tail_min,

@@ -208,7 +208,7 @@ fn an_answer_that_overtakes_its_question_waits_for_it_but_not_for_ever() {
 #[test]
 fn only_accepted_evidence_is_taken_back_and_only_once() {
     let mut bench = Bench::new();
-    let mut take_back = |id: &str, of: &str, bench: &mut Bench| bench.receipt(Event::Retraction(Box::new(back(id, of))));
+    let take_back = |id: &str, of: &str, bench: &mut Bench| bench.receipt(Event::Retraction(Box::new(back(id, of))));
     assert!(take_back("r1", "d1", &mut bench).reason.contains("has not been accepted"));
     bench.show(shown("d1", 0.5, 0.5));
     assert_eq!(take_back("r1", "d1", &mut bench).outcome, EvidenceReceipt::ACCEPTED);

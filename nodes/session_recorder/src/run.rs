@@ -29,7 +29,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
             Compression::Lz4 => bag::Compression::Lz4,
         },
         max_bytes_per_file: settings.max_bytes_per_file.unsigned_abs(),
-        commit: option_env!("APPRENTICE_COMMIT").unwrap_or("unknown").to_owned(),
+        commit: std::env::var("APPRENTICE_COMMIT").unwrap_or_else(|_| "unknown".to_owned()),
         start_ns: system_ns(),
     })
     .map_err(|error| NodeError::Start(error.to_string()))?;

@@ -150,7 +150,7 @@ impl<E: Send + 'static> Bus<E> {
             name: self.name.full(),
             seed: settings.seed(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            commit: option_env!("APPRENTICE_COMMIT").unwrap_or("unknown").to_owned(),
+            commit: std::env::var("APPRENTICE_COMMIT").unwrap_or_else(|_| "unknown".to_owned()),
             parameters: settings_to_yaml(settings),
         })?;
         self.guards.push(Box::new(publisher));
