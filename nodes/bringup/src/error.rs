@@ -62,6 +62,14 @@ pub enum BringupError {
         /// Which.
         path: PathBuf,
     },
+    /// Two lessons on one graph would answer each other's questions.
+    #[error("another apprentice teaches on ROS domain {domain} in {namespace}; stop that one, or choose --domain-id N")]
+    DomainInUse {
+        /// The domain.
+        domain: String,
+        /// The namespace.
+        namespace: String,
+    },
     /// A session is continued as it was begun.
     #[error("the session {path:?} was begun with {name} {was}, not {got}; leave --{name} out, or begin a new session")]
     OtherSession {

@@ -3,6 +3,7 @@
 mod backoff;
 mod child;
 mod console;
+mod domain;
 mod environment;
 mod error;
 mod flags;
@@ -24,6 +25,7 @@ mod words;
 pub use backoff::{Backoff, HEALTHY_AFTER, LONGEST, SHORTEST};
 pub use child::{Child, NodeLog};
 pub use console::{Console, Kind};
+pub use domain::DomainLock;
 pub use environment::{take_on, wanted};
 pub use error::BringupError;
 pub use flags::{CommandLine, CommandLineError, Flags, Who};

@@ -1,8 +1,8 @@
 //! From the command line to a running lesson.
 
 use crate::{
-    BringupError, Circumstances, CommandLine, CommandLineError, Common, Console, Demonstrator, Kind, Level, NodeInfo,
-    Plan, Session, Settings, environment, launch, suite,
+    BringupError, Circumstances, CommandLine, CommandLineError, Common, Console, Demonstrator, DomainLock, Kind, Level,
+    NodeInfo, Plan, Session, Settings, environment, launch, suite,
 };
 use bus::Graph;
 use std::path::{Path, PathBuf};
@@ -39,10 +39,12 @@ fn begin(line: &CommandLine, nodes: &[NodeInfo], commit: &str) -> Result<u8, Bri
     environment::take_on(&variables)
         .map_err(|source| BringupError::Start { what: "apprentice with its environment", source })?;
     let summary = checked_summary(&settings)?;
+    let namespace = line.arguments.node_name("bringup")?.namespace;
+    let _alone = DomainLock::take(&std::env::temp_dir(), &domain_id(), &namespace)?;
     let session = Session::open(&settings, &utc_stamp())?;
     let common = Common {
         files: line.parameter_files.clone(),
-        namespace: line.arguments.node_name("bringup")?.namespace,
+        namespace,
         log_level: line.flags.log_level.clone().unwrap_or_else(|| "info".to_owned()),
     };
     let launched = launch(&settings, &session, nodes, &common)?;
@@ -108,7 +110,6 @@ fn introduce(
     commit: &str,
 ) {
     let say = |word, text: &str| console.say(Kind::Info(word), text);
-    let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let commit = commit.get(..10).unwrap_or(commit);
     let who = match settings.demonstrator {
         Demonstrator::Simulated => "a simulated person answers",
@@ -120,7 +121,7 @@ fn introduce(
     let again = if session.resumed { " (continued)" } else { "" };
     say("session", &format!("{}{again}", session.dir.display()));
     say("bag", bag.unwrap_or("none is recorded"));
-    let domain = variable("ROS_DOMAIN_ID").unwrap_or_else(|| "0".to_owned());
+    let domain = domain_id();
     let (name, range) = match variable("ROS_AUTOMATIC_DISCOVERY_RANGE") {
         Some(range) => ("ROS_AUTOMATIC_DISCOVERY_RANGE", range),
         None => ("ROS_LOCALHOST_ONLY", variable("ROS_LOCALHOST_ONLY").unwrap_or_default()),
@@ -131,4 +132,12 @@ fn introduce(
     if !settings.until_taught {
         say("stop", "Ctrl-C");
     }
+}
+
+fn variable(name: &str) -> Option<String> {
+    std::env::var(name).ok().filter(|value| !value.is_empty())
+}
+
+fn domain_id() -> String {
+    variable("ROS_DOMAIN_ID").unwrap_or_else(|| "0".to_owned())
 }

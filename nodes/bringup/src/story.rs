@@ -16,6 +16,10 @@ const MAX_TEXT: usize = 160;
 pub struct Story {
     table: Option<TableScene>,
     questions: Vec<String>,
+    /// The scene of the newest question: the next one usually differs from it in one object.
+    asked: Option<TableScene>,
+    /// The newest question, which is told after the bound that it comes from.
+    held: Option<(u64, String)>,
     told_evidence: Option<u64>,
     bounds: Option<PerformanceBounds>,
     lesson: Option<LessonStatus>,
@@ -28,33 +32,46 @@ pub struct Story {
 impl Story {
     /// The sentences that this adds to the story.
     pub fn tell(&mut self, topic: &Topic) -> Vec<(Kind, String)> {
+        // An answer comes after its question, and a question after the one before, whatever else is still on its way.
+        let mut lines: Vec<_> = match topic {
+            Topic::Query(query) if !self.questions.contains(&query.id) => self.release(u64::MAX).into_iter().collect(),
+            Topic::Evidence(_) => self.release(u64::MAX).into_iter().collect(),
+            _ => Vec::new(),
+        };
         match topic {
-            Topic::Scene(scene) => {
-                self.table = Some(scene.clone());
-                Vec::new()
-            }
-            Topic::Query(query) => self.question(query).into_iter().collect(),
-            Topic::Evidence(log) => self.answers(log),
+            Topic::Scene(scene) => self.table = Some(scene.clone()),
+            Topic::Query(query) => self.hold(query),
+            Topic::Evidence(log) => lines.extend(self.answers(log)),
             Topic::Bounds(bounds) => {
                 self.bounds = Some(bounds.clone());
-                self.bound_and_state()
+                lines.extend(self.bound_and_state());
             }
             Topic::Lesson(lesson) => {
                 self.lesson = Some(lesson.clone());
-                self.bound_and_state()
+                lines.extend(self.bound_and_state());
             }
-            Topic::Plan(plan) => self.plan(plan).into_iter().collect(),
-            Topic::Receipt(_) => Vec::new(),
+            Topic::Plan(plan) => lines.extend(self.plan(plan)),
+            Topic::Receipt(_) => {}
         }
+        lines.extend(self.told_bound.and_then(|revision| self.release(revision)));
+        lines
     }
 
-    fn question(&mut self, query: &PlacementQuery) -> Option<(Kind, String)> {
+    /// Keeps a question that is new.
+    fn hold(&mut self, query: &PlacementQuery) {
         if self.questions.contains(&query.id) {
-            return None;
+            return;
         }
         self.questions.push(query.id.clone());
-        let moved = self.table.as_ref().map(|table| moved(table, &query.scene)).unwrap_or_default();
-        let when = if moved.is_empty() { " on the table as it is".to_owned() } else { format!(" if {moved}") };
+        let before = self.asked.as_ref().or(self.table.as_ref());
+        let change = before.map(|before| moved(before, &query.scene)).unwrap_or_default();
+        let is_real = self.table.as_ref().is_some_and(|table| moved(table, &query.scene).is_empty());
+        let when = match (is_real, change.is_empty()) {
+            (true, _) => " on the table as it is".to_owned(),
+            (false, true) => " on the same table".to_owned(),
+            (false, false) => format!(" if {change}"),
+        };
+        self.asked = Some(query.scene.clone());
         let risk = if query.bound_m.is_finite() {
             format!("worst case there {}", centimetres(query.bound_m))
         } else {
@@ -62,7 +79,12 @@ impl Story {
         };
         let number = self.questions.len();
         let target = short(&query.scene.target.label);
-        Some((Kind::Question, format!("{number:<3} where does the {target} belong{when}?  {risk}")))
+        self.held = Some((query.revision, format!("{number:<3} where does the {target} belong{when}?  {risk}")));
+    }
+
+    /// The held question, if it comes from this revision or an earlier one.
+    fn release(&mut self, known: u64) -> Option<(Kind, String)> {
+        self.held.take_if(|(revision, _)| *revision <= known).map(|(_, text)| (Kind::Question, text))
     }
 
     fn answers(&mut self, log: &EvidenceLog) -> Vec<(Kind, String)> {

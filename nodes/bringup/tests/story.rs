@@ -78,16 +78,39 @@ fn evidence() -> EvidenceLog {
 fn a_question_names_what_moved_by_label_or_by_id_where_labels_repeat_and_is_told_once() {
     let mut story = Story::default();
     story.tell(&Topic::Scene(table()));
-    let first = story.tell(&Topic::Query(query("q1", 0, f64::NAN)));
-    assert_eq!(texts(first), ["1   where does the vase belong on the table as it is?  no bound there yet"]);
+    assert!(story.tell(&Topic::Query(query("q1", 0, f64::NAN))).is_empty(), "a question waits for the bound behind it");
     let mut moved = query("q2", 1, 0.142);
     moved.scene.objects[1].pose.position = Point { x: 0.31, y: 0.72, z: 0.0 };
-    moved.scene.objects[2].pose.position.x = 0.9;
-    let told = texts(story.tell(&Topic::Query(moved.clone())));
-    let wanted = "2   where does the vase belong if plate_2 moves to (0.31, 0.72) m and the cup moves to (0.90, 0.20) m?  \
-                  worst case there 14.2 cm";
-    assert_eq!(told, [wanted]);
-    assert!(story.tell(&Topic::Query(moved)).is_empty());
+    let mut further = moved.clone();
+    further.id = "q3".to_owned();
+    further.scene.objects[2].pose.position.x = 0.9;
+    let mut told = Vec::new();
+    for query in [&moved, &further, &further, &PlacementQuery { id: "q4".to_owned(), ..further.clone() }] {
+        told.extend(texts(story.tell(&Topic::Query(query.clone()))));
+    }
+    // Only what has changed since the question before is named; the last question waits.
+    let wanted = [
+        "1   where does the vase belong on the table as it is?  no bound there yet",
+        "2   where does the vase belong if plate_2 moves to (0.31, 0.72) m?  worst case there 14.2 cm",
+        "3   where does the vase belong if the cup moves to (0.90, 0.20) m?  worst case there 14.2 cm",
+    ];
+    assert_eq!(told, wanted);
+    let last = texts(story.tell(&Topic::Evidence(EvidenceLog::default())));
+    assert_eq!(last, ["4   where does the vase belong on the same table?  worst case there 14.2 cm"]);
+}
+
+#[test]
+fn a_question_is_told_after_the_bound_it_comes_from_and_before_its_answer() {
+    let mut story = Story::default();
+    story.tell(&Topic::Query(query("q1", 3, 0.2)));
+    story.tell(&Topic::Lesson(lesson(3, LessonStatus::ASKING, 0.2)));
+    let told = texts(story.tell(&Topic::Bounds(bounds(3, 0.2))));
+    assert!(told.len() == 2 && told[0].starts_with("95 % sure") && told[1].starts_with("1   where"), "{told:?}");
+    story.tell(&Topic::Query(query("q2", 4, 0.2)));
+    let mut log = evidence();
+    log.records.truncate(1);
+    let told = texts(story.tell(&Topic::Evidence(log)));
+    assert!(told.len() == 2 && told[0].starts_with("2   where") && told[1].contains("revision 1"), "{told:?}");
 }
 
 #[test]
@@ -182,7 +205,8 @@ fn text_from_the_graph_cannot_command_the_terminal_or_flood_it() {
     let mut story = Story::default();
     let mut hostile = query("q", 0, f64::NAN);
     hostile.scene.target.label = format!("\u{1b}[2J{}", "v".repeat(100_000));
-    let told = texts(story.tell(&Topic::Query(hostile)));
+    story.tell(&Topic::Query(hostile));
+    let told = texts(story.tell(&Topic::Evidence(EvidenceLog::default())));
     assert!(told[0].len() < 400 && !told[0].contains('\u{1b}'));
 }
 
