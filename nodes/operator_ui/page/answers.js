@@ -33,7 +33,9 @@ export function drawAnswers(list, answers, on) {
     item.dataset.key = key;
     return item;
   });
+  const isLonger = items.length > known.size;
   list.replaceChildren(...items);
+  if (isLonger) list.scrollTop = 0;
   if (focused) list.querySelector(`[data-id="${CSS.escape(focused)}"] button`)?.focus({ preventScroll: true });
 }
 

@@ -163,6 +163,7 @@ function render() {
   renderConnection();
 }
 
+const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
 const STATES = { waiting: "Waiting for the lesson", asking: "Learning", taught: "Taught", stopped: "Stopped", gave_up: "Gave up" };
 
 function renderLesson() {
@@ -175,7 +176,7 @@ function renderLesson() {
   text("question-id", asking ? question.id : "", asking ? question.id : "");
   const [, asked, why] = asking ? question.reason.match(/^([^?]{1,200}\?)\s+(.+)$/s) ?? [] : [];
   text("question-title", own.correcting || asking ? asked ?? `Where does the ${name} belong?` : { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking." }[word] ?? "One moment…");
-  text("question-reason", own.correcting ? `Show where the ${name} belongs on the table as it is.` : asking ? why ?? question.reason : lesson?.reason || "The page is waiting for the robot's first question.");
+  text("question-reason", own.correcting ? `Show where the ${name} belongs on the table as it is.` : asking ? why ?? question.reason : sentence(lesson?.reason) || "The page is waiting for the robot's first question.");
   const epsilon = lesson?.epsilon_m ?? question?.epsilon_m ?? null, bound = bounds?.bound_m ?? null;
   text("bound", bound === null ? (bounds ? "no bound yet" : "–") : cm(bound), bound);
   $("bound").dataset.revision = bounds?.revision ?? "";
@@ -273,7 +274,7 @@ function renderGuess(map, shown, name) {
       words = `The robot guessed ${cm(distance)} from yours.`;
     } else if (map && !guess) words = `The robot has no guess: ${map.reason}`;
     else if (!map) words = "The robot's guess has not arrived.";
-  } else if (map) {
+  } else if (map && reveal()) {
     words = guess ? `On this table the robot would put the ${name} ${(guess.x_m * 100).toFixed(1)} cm from the left, ${(guess.y_m * 100).toFixed(1)} cm from its edge${map.outcome === "planned" ? `, in a motion of ${map.motion_s.toFixed(1)} s` : ""}.` : map.reason;
     if (guess && map.outcome !== "planned") words += ` ${map.reason}`;
   }
