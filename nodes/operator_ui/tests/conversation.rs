@@ -7,7 +7,7 @@ use operator_ui::Event;
 use proptest::prelude::{Just, Strategy, any, prop_oneof, proptest};
 use serde_json::{Value, json};
 use world::table::{Sent, Table};
-use world::{bounds, id, lesson, log, plan, posterior, query, receipt, record, retraction_record, scene};
+use world::{bounds, id, lesson, log, plan, posterior, query, record, retraction_record, scene};
 
 fn place(n: u32, query_id: &str) -> Value {
     json!({"type": "place", "id": id(n), "query_id": query_id, "x_m": 0.5, "y_m": 0.45, "confidence": "fairly"})
