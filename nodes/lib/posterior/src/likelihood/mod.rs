@@ -1,0 +1,143 @@
+//! The likelihood of placements under a softmax over the table (method notes section 5):
+//! log P(x_d | C_d, w) = β_d R_w(x_d) − log mean over the free cells c of exp(β_d R_w(c)).
+
+mod cells;
+mod curvature;
+mod kernel;
+
+pub(crate) use cells::Cells;
+pub use cells::Placement;
+pub(crate) use kernel::Scratch;
+
+use cells::FixedTable;
+use pulp::{Arch, Simd, WithSimd};
+use scene::Grid;
+
+/// Log-likelihood of the placements of a lesson as a function of the weights. A concave function of w.
+#[derive(Debug, Clone)]
+pub struct Likelihood {
+    n_features: usize,
+    fixed: FixedTable,
+    cells: Vec<Cells>,
+    /// Σ β_d φ(x_d).
+    shown: Vec<f64>,
+    arch: Arch,
+}
+
+impl Likelihood {
+    /// The likelihood of `placements` normalised over the points of `grid`; `n_features` counts the nine fixed centres,
+    /// and every scene has the other `n_features − 9` as objects.
+    ///
+    /// Scenes without a free grid point give a likelihood that is not a number: refuse them first ([`Self::n_free`]).
+    pub fn new(n_features: usize, placements: &[Placement<'_>], grid: &Grid) -> Self {
+        let cells = placements.iter().map(|placement| Cells::new(placement, grid)).collect();
+        let mut shown = vec![0.0; n_features];
+        for placement in placements {
+            for (shown, feature) in shown.iter_mut().zip(placement.features()) {
+                *shown += placement.beta * feature;
+            }
+        }
+        Self { n_features, fixed: FixedTable::new(grid), cells, shown, arch: Arch::new() }
+    }
+
+    /// The same likelihood normalised over cells `factor` times as wide, each counted by how much of it is free. `None`
+    /// where `factor` does not divide the side of the grid, which must be one of midpoints.
+    pub(crate) fn coarsened(&self, placements: &[Placement<'_>], grid: &Grid, factor: usize) -> Option<Self> {
+        if !grid.side().is_multiple_of(factor) {
+            return None;
+        }
+        let coarse = Grid::midpoints(grid.side() / factor);
+        let cells = placements.iter().map(|placement| Cells::coarsened(placement, grid, &coarse)).collect();
+        Some(Self { cells, fixed: FixedTable::new(&coarse), shown: self.shown.clone(), ..*self })
+    }
+
+    /// Number of weights.
+    pub fn n_features(&self) -> usize {
+        self.n_features
+    }
+
+    /// Number of placements.
+    pub fn n_placements(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Free grid points of each scene.
+    pub fn n_free(&self) -> impl Iterator<Item = usize> {
+        self.cells.iter().map(|cells| cells.n_free)
+    }
+
+    /// log P(placements | w), in nats relative to a uniform placement.
+    pub fn value(&self, w: &[f64]) -> f64 {
+        self.value_with(w, &mut self.scratch())
+    }
+
+    /// log P(placements | w); its gradient Σ β_d (φ(x_d) − E_d[φ]) goes to `gradient`.
+    pub fn value_and_gradient(&self, w: &[f64], gradient: &mut [f64]) -> f64 {
+        self.value_and_gradient_with(w, gradient, &mut self.scratch())
+    }
+
+    pub(crate) fn scratch(&self) -> Scratch {
+        Scratch::new(self.fixed.side(), self.n_features)
+    }
+
+    pub(crate) fn value_with(&self, w: &[f64], scratch: &mut Scratch) -> f64 {
+        self.arch.dispatch(Value { likelihood: self, w, scratch })
+    }
+
+    pub(crate) fn value_and_gradient_with(&self, w: &[f64], gradient: &mut [f64], scratch: &mut Scratch) -> f64 {
+        self.arch.dispatch(ValueAndGradient { likelihood: self, w, gradient, scratch })
+    }
+
+    /// Fisher information −∇² = Σ β_d² Cov_d[φ], row-major and symmetric.
+    pub(crate) fn information(&self, w: &[f64], scratch: &mut Scratch) -> Vec<f64> {
+        self.arch.dispatch(Information { likelihood: self, w, scratch })
+    }
+}
+
+// Named operations, because a closure would not be inlined into the dispatch and miss the machine's vectors.
+
+struct Value<'a> {
+    likelihood: &'a Likelihood,
+    w: &'a [f64],
+    scratch: &'a mut Scratch,
+}
+
+impl WithSimd for Value<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> f64 {
+        kernel::value(self.likelihood, self.w, self.scratch)
+    }
+}
+
+struct ValueAndGradient<'a> {
+    likelihood: &'a Likelihood,
+    w: &'a [f64],
+    gradient: &'a mut [f64],
+    scratch: &'a mut Scratch,
+}
+
+impl WithSimd for ValueAndGradient<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        kernel::value_and_gradient(simd, self.likelihood, self.w, self.gradient, self.scratch)
+    }
+}
+
+struct Information<'a> {
+    likelihood: &'a Likelihood,
+    w: &'a [f64],
+    scratch: &'a mut Scratch,
+}
+
+impl WithSimd for Information<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> Vec<f64> {
+        curvature::information(self.likelihood, self.w, self.scratch)
+    }
+}
