@@ -5,8 +5,11 @@ use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior};
 use exchange::{scene_from_message, scene_to_message};
 use inquiry::{Choice, Judged, candidates, choose};
-use scene::Scene;
+use scene::{Field, Grid, Rbf, Scene, best_placement};
 use sha2::{Digest, Sha256};
+
+/// Cells per axis on which the favourite place is looked for.
+const FAVOURITE_SIDE: usize = 32;
 
 /// What reaches the node.
 #[derive(Debug, Clone)]
@@ -75,7 +78,10 @@ impl ActiveQuery {
             vec![base.clone()]
         } else {
             let n = usize::try_from(self.settings.n_candidates).unwrap_or(1);
-            let imagined = candidates(&base, n, self.settings.seed.unsigned_abs(), posterior.revision);
+            let seed = self.settings.seed.unsigned_abs();
+            let imagined = candidates(&base, n, seed, posterior.revision, |scene| {
+                favourite_is_free(scene, &posterior.map_weights)
+            });
             if imagined.is_empty() { vec![base.clone()] } else { imagined }
         };
         let stamp = posterior.header.stamp.clone();
@@ -197,6 +203,24 @@ impl ActiveQuery {
 fn judged(bound: &PlacementBound) -> Judged {
     let known = bound.outcome == PlacementBound::BOUND && bound.bound_m.is_finite();
     Judged { bound_m: known.then_some(bound.bound_m), point_estimate_m: bound.point_estimate_m }
+}
+
+/// Whether the place that the MAP reward likes best is free of objects.
+///
+/// Where an object stands on it, the best places left lie on all sides of that object, nearly as good as each other: such
+/// a table says more about the object's size than about what the person wants, and no answer settles it.
+fn favourite_is_free(scene: &Scene, map_weights: &[f64]) -> bool {
+    let rbf = Rbf::new(scene);
+    if map_weights.len() != rbf.n() {
+        return true;
+    }
+    let mut clear = scene.clone();
+    for object in &mut clear.objects {
+        object.supports = true;
+    }
+    let field = Field::new(&rbf, &Grid::midpoints(FAVOURITE_SIDE), Some(&clear));
+    let favourite = best_placement(&clear, &rbf, &field, map_weights, &mut Vec::new());
+    favourite.is_none_or(|favourite| scene.occupied().is_free(scene.metres(favourite.at)))
 }
 
 /// The first candidate on which the target has a place.

@@ -6,14 +6,17 @@ use scene::{Object, Point, Scene};
 
 /// Places tried for one object before another object is chosen to move.
 const TRIES: usize = 100;
+/// Tables drawn for one candidate before it is given up.
+const REDRAWS: usize = 20;
 /// Space kept between two objects, metres.
 const GAP_M: f64 = 0.01;
 
 /// At most `n` tables, each `base` with one object, drawn at random, moved to a place drawn uniformly from those where it
-/// is whole on the table and clear of the others. Fewer when the table has no room; none when it has no objects.
+/// is whole on the table and clear of the others, and where the table is `sensible`. Tables that are not sensible are
+/// drawn again, a limited number of times. Fewer when the table has no room; none when it has no objects.
 ///
 /// A function of the arguments alone; `revision` keeps the tables of different questions of one lesson apart.
-pub fn candidates(base: &Scene, n: usize, seed: u64, revision: u64) -> Vec<Scene> {
+pub fn candidates(base: &Scene, n: usize, seed: u64, revision: u64, sensible: impl Fn(&Scene) -> bool) -> Vec<Scene> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     rng.set_stream(revision);
     if base.objects.is_empty() {
@@ -21,15 +24,19 @@ pub fn candidates(base: &Scene, n: usize, seed: u64, revision: u64) -> Vec<Scene
     }
     let mut scenes = Vec::with_capacity(n);
     for i in 0..n {
-        let moved = (0..base.objects.len()).find_map(|_| {
-            let which = rng.random_range(0..base.objects.len());
-            Some((which, free_place(base, which, &mut rng)?))
-        });
-        if let Some((which, position_m)) = moved {
+        for _ in 0..REDRAWS {
+            let moved = (0..base.objects.len()).find_map(|_| {
+                let which = rng.random_range(0..base.objects.len());
+                Some((which, free_place(base, which, &mut rng)?))
+            });
+            let Some((which, position_m)) = moved else { break };
             let mut scene = base.clone();
             scene.id = format!("r{revision}-{i}");
             scene.objects[which].position_m = position_m;
-            scenes.push(scene);
+            if sensible(&scene) {
+                scenes.push(scene);
+                break;
+            }
         }
     }
     scenes
@@ -76,7 +83,7 @@ mod tests {
         #[test]
         fn one_object_moves_and_stays_whole_and_clear(seed in any::<u64>(), revision in 0..1000_u64) {
             let base = base(0.06);
-            let scenes = candidates(&base, 50, seed, revision);
+            let scenes = candidates(&base, 50, seed, revision, |_| true);
             prop_assert_eq!(scenes.len(), 50);
             for scene in &scenes {
                 prop_assert!(scene.check().is_ok());
@@ -94,24 +101,33 @@ mod tests {
     #[test]
     fn the_same_arguments_give_the_same_tables_and_another_revision_others() {
         let base = base(0.06);
-        assert_eq!(candidates(&base, 50, 3, 7), candidates(&base, 50, 3, 7));
-        assert_ne!(candidates(&base, 50, 3, 7)[0].objects, candidates(&base, 50, 3, 8)[0].objects);
-        assert_ne!(candidates(&base, 50, 3, 7)[0].objects, candidates(&base, 50, 4, 7)[0].objects);
+        assert_eq!(candidates(&base, 50, 3, 7, |_| true), candidates(&base, 50, 3, 7, |_| true));
+        assert_ne!(candidates(&base, 50, 3, 7, |_| true)[0].objects, candidates(&base, 50, 3, 8, |_| true)[0].objects);
+        assert_ne!(candidates(&base, 50, 3, 7, |_| true)[0].objects, candidates(&base, 50, 4, 7, |_| true)[0].objects);
     }
 
     #[test]
     fn a_table_without_room_gives_none() {
-        assert!(candidates(&base(0.6), 50, 1, 1).is_empty());
+        assert!(candidates(&base(0.6), 50, 1, 1, |_| true).is_empty());
         let mut empty = base(0.06);
         empty.objects.clear();
-        assert!(candidates(&empty, 50, 1, 1).is_empty());
+        assert!(candidates(&empty, 50, 1, 1, |_| true).is_empty());
+    }
+
+    #[test]
+    fn tables_that_are_not_sensible_are_drawn_again() {
+        let left = |scene: &Scene| scene.objects.iter().all(|object| object.position_m.x < 0.8);
+        let scenes = candidates(&base(0.06), 50, 1, 1, left);
+        assert_eq!(scenes.len(), 50);
+        assert!(scenes.iter().all(left));
+        assert!(candidates(&base(0.06), 50, 1, 1, |_| false).is_empty());
     }
 
     #[test]
     fn places_are_uniform_over_the_table() {
         let mut lonely = base(0.05);
         lonely.objects.truncate(1);
-        let scenes = candidates(&lonely, 20_000, 1, 1);
+        let scenes = candidates(&lonely, 20_000, 1, 1, |_| true);
         let mean = scenes.iter().map(|s| s.objects[0].position_m.x).sum::<f64>() / 20_000.0;
         let left = scenes.iter().filter(|s| s.objects[0].position_m.x < 0.05 + 0.9 / 4.0).count() as f64 / 20_000.0;
         assert!((mean - 0.5).abs() < 5.0 * 0.26 / 20_000_f64.sqrt(), "{mean}");
