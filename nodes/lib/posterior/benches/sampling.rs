@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use posterior::Likelihood;
+use posterior::{Lesson, Likelihood, Settings, sample};
 use scene::Grid;
 
 #[path = "../tests/common/mod.rs"]
@@ -24,5 +24,21 @@ fn likelihood(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, likelihood);
+fn sampling(c: &mut Criterion) {
+    let lesson = Lesson::new(&common::flowers());
+    let mut group = c.benchmark_group("4000 draws on two threads");
+    group.sample_size(10);
+    for n in [5, 10, 20] {
+        let demonstrations = common::lesson(n, 4, &common::flowers_weights(), 1);
+        let draw = || sample(&Settings::default(), 1, &lesson, &demonstrations).expect("draws");
+        let draws = draw();
+        println!(
+            "{n} demonstrations: accepted {:.3}, R-hat {:.4}, bulk {:.0}, tail {:.0}",
+            draws.acceptance, draws.rhat_max, draws.ess_bulk_min, draws.ess_tail_min
+        );
+        group.bench_function(format!("{n} demonstrations"), |b| b.iter(draw));
+    }
+}
+
+criterion_group!(benches, likelihood, sampling);
 criterion_main!(benches);
