@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(wanted(|_| None, None, "abc"), [commit.clone(), local.clone()]);
         for said in ["ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY"] {
             let current = |name: &str| (name == said).then(|| OsString::from("SUBNET"));
-            assert_eq!(wanted(current, None, "abc"), [commit.clone()]);
+            assert_eq!(wanted(current, None, "abc"), std::slice::from_ref(&commit));
         }
     }
 

@@ -42,17 +42,13 @@ impl Ledger {
                 self.lesson = Some(lesson.clone());
             }
             Topic::Receipt(receipt) if receipt.outcome == EvidenceReceipt::ACCEPTED => {
-                if self.followed.is_none_or(|followed| receipt.revision > followed)
-                    && self.waiting.len() < MAX_LATENCIES
-                {
-                    self.waiting.entry(receipt.revision).or_insert(now);
-                }
+                self.wait_for(now, receipt.revision)
             }
             Topic::Evidence(log) => {
                 let answers = log.records.iter().filter(|record| record.kind != EvidenceRecord::RETRACTION);
                 self.answers = answers.count() as u64;
             }
-            Topic::Plan(plan) if plan.query_id.is_empty() => self.plan = Some(plan.clone()),
+            Topic::Plan(plan) if plan.query_id.is_empty() => self.plan = Some(PlacementPlan::clone(plan)),
             _ => {}
         }
     }
@@ -78,6 +74,13 @@ impl Ledger {
         let mut sorted = self.latencies_ms.clone();
         sorted.sort_by(f64::total_cmp);
         sorted
+    }
+
+    /// An answer has become this revision.
+    fn wait_for(&mut self, now: Duration, revision: u64) {
+        if self.followed.is_none_or(|followed| revision > followed) && self.waiting.len() < MAX_LATENCIES {
+            self.waiting.entry(revision).or_insert(now);
+        }
     }
 
     /// A question or the end with this revision has come.

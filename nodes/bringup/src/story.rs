@@ -91,6 +91,9 @@ impl Story {
         let newest = log.records.iter().map(|record| record.sequence).max().unwrap_or(0);
         let told = self.told_evidence.replace(newest.max(self.told_evidence.unwrap_or(0)));
         if told.is_none() && log.records.len() > 1 {
+            // The next question differs from the newest table that was shown.
+            let shown = log.records.iter().rev().find_map(|record| record.demonstration.first());
+            self.asked = shown.map(|shown| shown.scene.clone()).or(self.asked.take());
             return vec![(Kind::Answer, format!("{newest:<3} answers and corrections are there already"))];
         }
         let told = told.unwrap_or(0);

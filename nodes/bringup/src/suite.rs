@@ -73,7 +73,7 @@ impl Outcome {
 }
 
 enum Event {
-    Topic(Topic),
+    Topic(Box<Topic>),
     Ended(usize),
     Signal(i32),
 }
@@ -118,7 +118,7 @@ pub fn run(plan: Plan, graph: Graph) -> Result<Outcome, BringupError> {
     });
     let topics = events.clone();
     let watch = Watch::start(graph, plan.arguments.clone(), plan.settings.clone(), move |topic| {
-        topics.send(Event::Topic(topic)).is_ok()
+        topics.send(Event::Topic(Box::new(topic))).is_ok()
     })
     .map_err(BringupError::Bus)?;
     let stages: Vec<u8> = plan.nodes.iter().map(|node| node.stage).collect();

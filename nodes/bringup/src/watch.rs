@@ -24,7 +24,7 @@ pub enum Topic {
     /// The lesson's state.
     Lesson(LessonStatus),
     /// The robot's plan.
-    Plan(PlacementPlan),
+    Plan(Box<PlacementPlan>),
 }
 
 /// A thread that listens.
@@ -86,6 +86,6 @@ fn open(graph: &Graph, arguments: &Arguments, settings: &Settings) -> Result<Bus
     bus.subscribe("evidence", Qos::State, Topic::Evidence)?;
     bus.subscribe("bounds", Qos::State, Topic::Bounds)?;
     bus.subscribe("lesson", Qos::State, Topic::Lesson)?;
-    bus.subscribe("plan", Qos::State, Topic::Plan)?;
+    bus.subscribe("plan", Qos::State, |plan| Topic::Plan(Box::new(plan)))?;
     Ok(bus)
 }

@@ -139,7 +139,7 @@ fn every_piece_of_evidence_is_told_once_and_a_continued_session_in_one_line() {
 fn the_bound_is_told_once_in_whichever_order_its_two_topics_come() {
     for swapped in [false, true] {
         let mut story = Story::default();
-        let mut topics = vec![Topic::Bounds(bounds(3, 0.124)), Topic::Lesson(lesson(3, LessonStatus::ASKING, 0.124))];
+        let mut topics = [Topic::Bounds(bounds(3, 0.124)), Topic::Lesson(lesson(3, LessonStatus::ASKING, 0.124))];
         if swapped {
             topics.reverse();
         }
@@ -192,12 +192,12 @@ fn plan(revision: u64) -> PlacementPlan {
 fn a_plan_is_told_when_the_robot_may_move_and_guesses_are_not() {
     let mut story = Story::default();
     story.tell(&Topic::Scene(table()));
-    let told = texts(story.tell(&Topic::Plan(plan(12))));
+    let told = texts(story.tell(&Topic::Plan(Box::new(plan(12)))));
     assert_eq!(told, ["the vase goes to (0.50, 0.52) m; the arm needs 4.2 s"]);
-    assert!(story.tell(&Topic::Plan(plan(12))).is_empty());
+    assert!(story.tell(&Topic::Plan(Box::new(plan(12)))).is_empty());
     let guess = PlacementPlan { query_id: "q".to_owned(), ..plan(13) };
-    assert!(story.tell(&Topic::Plan(guess)).is_empty());
-    assert!(story.tell(&Topic::Plan(PlacementPlan { inside_bound: false, ..plan(13) })).is_empty());
+    assert!(story.tell(&Topic::Plan(Box::new(guess))).is_empty());
+    assert!(story.tell(&Topic::Plan(Box::new(PlacementPlan { inside_bound: false, ..plan(13) }))).is_empty());
 }
 
 #[test]
@@ -234,9 +234,9 @@ fn latencies_run_from_acceptance_to_the_first_question_that_knows_of_it() {
     assert_eq!(ledger.latencies_ms(), [2000.0, 4000.0]);
     assert_eq!(ledger.first_question, Some(seconds(2)));
     assert!(ledger.is_over() && !ledger.has_final_plan());
-    ledger.note(seconds(13), &Topic::Plan(plan(2)));
+    ledger.note(seconds(13), &Topic::Plan(Box::new(plan(2))));
     assert!(!ledger.has_final_plan());
-    ledger.note(seconds(13), &Topic::Plan(plan(3)));
+    ledger.note(seconds(13), &Topic::Plan(Box::new(plan(3))));
     assert!(ledger.has_final_plan());
 }
 
@@ -260,7 +260,7 @@ fn the_summary_says_what_happened_and_null_for_what_did_not() {
     ledger.note(seconds(1), &Topic::Evidence(evidence()));
     ledger.note(seconds(2), &accepted(1));
     ledger.note(seconds(3), &Topic::Lesson(lesson(12, LessonStatus::TAUGHT, 0.09)));
-    ledger.note(seconds(3), &Topic::Plan(plan(12)));
+    ledger.note(seconds(3), &Topic::Plan(Box::new(plan(12))));
     let root = tempfile::tempdir().expect("a folder");
     let path = root.path().join("summary.json");
     Summary::new(&circumstances(), &ledger, counts, seconds(9), Some("interrupted by SIGINT"))

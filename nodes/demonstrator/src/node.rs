@@ -13,7 +13,7 @@ pub const MAX_PENDING: usize = 64;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Event {
     /// A question, perhaps one seen before.
-    Query(PlacementQuery),
+    Query(Box<PlacementQuery>),
     /// What became of a piece of evidence, perhaps somebody else's.
     Receipt(EvidenceReceipt),
     /// Time passed.
@@ -24,7 +24,7 @@ pub enum Event {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Output {
     /// An answer that is a placement.
-    Demonstration(PlacementDemonstration),
+    Demonstration(Box<PlacementDemonstration>),
     /// An answer that is not.
     Response(QueryResponse),
     /// Something for the log.
@@ -79,7 +79,7 @@ impl DemonstratorNode {
     pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
         let mut outputs = Vec::new();
         match event {
-            Event::Query(query) => self.hear(&now, query, &mut outputs),
+            Event::Query(query) => self.hear(&now, *query, &mut outputs),
             Event::Receipt(receipt) => self.settle(receipt, &mut outputs),
             Event::Tick => {}
         }
@@ -126,7 +126,7 @@ impl DemonstratorNode {
         }
         let answer = self.person.answer(&query.id, &scene).map_err(|error| error.to_string())?;
         let id = answer_id(&self.source, &query.id, self.seed);
-        let header = Header { stamp: now.clone(), frame_id: query.scene.header.frame_id.clone() };
+        let header = Header { stamp: *now, frame_id: query.scene.header.frame_id.clone() };
         let response = |header, id, kind, reason: &str| {
             Output::Response(QueryResponse {
                 header,
@@ -138,7 +138,7 @@ impl DemonstratorNode {
             })
         };
         Ok(match answer {
-            Answer::Place(at_m) => Output::Demonstration(PlacementDemonstration {
+            Answer::Place(at_m) => Output::Demonstration(Box::new(PlacementDemonstration {
                 header,
                 id,
                 query_id: query.id.clone(),
@@ -146,7 +146,7 @@ impl DemonstratorNode {
                 scene: query.scene.clone(),
                 placement: geometry_msgs::Point { x: at_m.x, y: at_m.y, z: 0.0 },
                 confidence: PlacementDemonstration::CONFIDENCE_SURE,
-            }),
+            })),
             Answer::Skip => response(header, id, QueryResponse::SKIP, ""),
             Answer::CantTell { reason } => response(header, id, QueryResponse::CANT_TELL, reason),
         })

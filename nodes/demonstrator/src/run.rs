@@ -1,6 +1,7 @@
 //! Wires the node to the graph.
 
 use crate::{DemonstratorNode, Event, Output, Settings};
+use apprentice_msgs::msg::PlacementDemonstration;
 use bus::{Arguments, Bus, Graph, NodeError, Qos};
 use std::time::Duration;
 
@@ -14,16 +15,16 @@ const TICK: Duration = Duration::from_millis(50);
 pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let settings: Settings = arguments.settings()?;
     let mut bus: Bus<Event> = Bus::open(graph, arguments, &settings)?;
-    let demonstration = bus.publisher("demonstration", Qos::Event)?;
+    let demonstration = bus.publisher::<PlacementDemonstration>("demonstration", Qos::Event)?;
     let response = bus.publisher("response", Qos::Event)?;
     bus.subscribe("receipt", Qos::Event, Event::Receipt)?;
-    bus.subscribe("query", Qos::State, Event::Query)?;
+    bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
     bus.every(TICK, || Event::Tick);
     let mut node = DemonstratorNode::new(&settings);
     while let Some((now, event)) = bus.next() {
         for output in node.step(now, event) {
             match output {
-                Output::Demonstration(message) => demonstration.publish(&message)?,
+                Output::Demonstration(message) => demonstration.publish(&*message)?,
                 Output::Response(message) => response.publish(&message)?,
                 Output::Warning(text) => log::warn!("{text}"),
             }

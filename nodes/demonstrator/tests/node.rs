@@ -10,7 +10,7 @@ fn at(seconds: f64) -> Time {
     Time::from_nanoseconds((seconds * 1e9) as i128)
 }
 
-fn query(id: &str) -> PlacementQuery {
+fn query(id: &str) -> Box<PlacementQuery> {
     let cup = Object {
         id: "cup".to_owned(),
         label: "cup".to_owned(),
@@ -27,11 +27,11 @@ fn query(id: &str) -> PlacementQuery {
         target: Object { id: "vase".to_owned(), ..cup.clone() },
         objects: vec![cup],
     };
-    PlacementQuery {
+    Box::new(PlacementQuery {
         id: id.to_owned(),
         scene: exchange::scene_to_message(&scene, Time::default()),
         ..PlacementQuery::default()
-    }
+    })
 }
 
 fn receipt(id: &str, outcome: u8) -> EvidenceReceipt {

@@ -103,8 +103,8 @@ impl SimulatedTableNode {
     fn announce(&mut self, now: Time) -> Vec<Output> {
         let with_robot = self.announcements.is_multiple_of(ROBOT_EVERY);
         self.announcements += 1;
-        let stamp = self.announced.get_or_insert(now).clone();
-        let scene = exchange::scene_to_message(&self.scene, stamp.clone());
+        let stamp = *self.announced.get_or_insert(now);
+        let scene = exchange::scene_to_message(&self.scene, stamp);
         let mut outputs = vec![Output::Scene(scene)];
         if with_robot {
             outputs.push(Output::RobotDescription(std_msgs::String { data: self.robot.urdf.clone() }));
