@@ -57,7 +57,7 @@ pub struct Flags {
     /// Seed of every node [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(i64).range(0..))]
     pub seed: Option<i64>,
-    /// Folder of the session; one that exists is continued [default: bags/session-<UTC time>]
+    /// Folder of the session; one that exists is continued [default: bags/session-UTCTIME]
     #[arg(long, value_name = "DIR")]
     pub session: Option<PathBuf>,
     /// TCP port of the operator's page; 0 takes any free one [default: 8642]
