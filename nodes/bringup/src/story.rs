@@ -216,7 +216,7 @@ fn end_sentence(lesson: &LessonStatus) -> String {
     let reason = short(lesson.reason.trim());
     match lesson.state {
         LessonStatus::TAUGHT => {
-            let bound = format!("{} < \u{3b5} = {}", centimetres(lesson.bound_m), centimetres(lesson.epsilon_m));
+            let bound = format!("{:.2} < \u{3b5} = {:.2} cm", 100.0 * lesson.bound_m, 100.0 * lesson.epsilon_m);
             format!("    taught {after}: the bound is {bound}")
         }
         LessonStatus::STOPPED => format!("    stopped {after}: {reason}"),

@@ -170,7 +170,7 @@ fn the_end_is_told_and_told_again_only_after_it_was_taken_back() {
     let told = texts(story.tell(&end));
     assert_eq!(
         told.last().map(String::as_str),
-        Some("taught after 12 questions: the bound is 9.0 cm < \u{3b5} = 10.0 cm")
+        Some("taught after 12 questions: the bound is 9.00 < \u{3b5} = 10.00 cm")
     );
     assert!(story.tell(&end).is_empty());
     story.tell(&Topic::Lesson(lesson(13, LessonStatus::ASKING, 0.11)));
