@@ -69,10 +69,11 @@ fn a_bag_written_by_rosbags_is_played_and_every_byte_arrives() {
     let status = player.wait(LIMIT);
     assert!(status.success(), "{status}\n{}", player.dump());
     let expected = played(&written);
-    wait_until("everything is recorded", &recorder, || received(&ours).is_some_and(|got| got == expected));
+    let n: usize = expected.values().map(Vec::len).sum();
+    wait_until("everything is recorded", &recorder, || received(&ours).values().map(Vec::len).sum::<usize>() >= n);
     kill_process(recorder.pid(), Signal::INT).expect("the recorder runs");
     assert!(recorder.wait(LIMIT).success(), "{}", recorder.dump());
-    assert_eq!(received(&ours).expect("the bag opens"), expected);
+    assert_eq!(unpadded(received(&ours), &expected), expected);
     assert!(Recorded::read(&ours).expect("the bag opens").whole);
 }
 
@@ -86,17 +87,32 @@ fn played(written: &Value) -> BTreeMap<String, Vec<String>> {
     topics
 }
 
-/// The same of what was recorded, of those topics only. DDS may have padded a message to a multiple of four bytes.
-fn received(bag: &Path) -> Option<BTreeMap<String, Vec<String>>> {
-    let bag = Recorded::read(bag).ok()?;
+/// The same of what was recorded, of those topics only.
+fn received(bag: &Path) -> BTreeMap<String, Vec<String>> {
     let mut topics: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for message in bag.messages {
+    for message in Recorded::read(bag).map(|bag| bag.messages).unwrap_or_default() {
         if ["/robot_name", "/velocity", "/shop/shelf"].contains(&message.topic.name.as_str()) {
             let bytes = message.data.iter().map(|byte| format!("{byte:02x}")).collect();
             topics.entry(message.topic.name.clone()).or_default().push(bytes);
         }
     }
-    Some(topics)
+    topics
+}
+
+/// DDS pads a message with zeros to a multiple of four bytes; this takes them off again, and nothing else.
+fn unpadded(
+    mut got: BTreeMap<String, Vec<String>>,
+    expected: &BTreeMap<String, Vec<String>>,
+) -> BTreeMap<String, Vec<String>> {
+    for (topic, messages) in &mut got {
+        for (message, wanted) in messages.iter_mut().zip(&expected[topic]) {
+            let padding = message.strip_prefix(wanted.as_str()).unwrap_or_default();
+            if ["00", "0000", "000000"].contains(&padding) {
+                message.truncate(wanted.len());
+            }
+        }
+    }
+    got
 }
 
 fn wait_until(what: &str, process: &Process, mut holds: impl FnMut() -> bool) {

@@ -27,7 +27,11 @@ fn a_peer_of_another_make_teaches_and_a_late_joiner_is_told_the_newest() {
     let mut peer = python::script("peer.py", &[&suite.domain.to_string()]);
     peer.env("CYCLONEDDS_URI", LOOPBACK);
     let told = python::run(peer, "the peer", Duration::from_secs(200));
-    assert_eq!(told["receipt_outcome"], EvidenceReceipt::ACCEPTED, "{told}\n{}", suite.dump());
+    // The peer repeats itself until it hears a receipt; that of the first time may have gone out before it could hear.
+    let taken = [EvidenceReceipt::ACCEPTED, EvidenceReceipt::DUPLICATE]
+        .iter()
+        .any(|outcome| told["receipt_outcome"] == *outcome);
+    assert!(taken, "{told}\n{}", suite.dump());
     assert_eq!(told["revision"], 1, "{told}");
     assert_eq!(told["first"], told["late"], "a late joiner is told the same");
     assert!(suite.stop(rustix::process::Signal::INT).success(), "{}", suite.dump());

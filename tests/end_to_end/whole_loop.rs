@@ -2,7 +2,7 @@
 
 use crate::recorded::Recorded;
 use crate::suite::Suite;
-use crate::taught::{flowers, teach};
+use crate::taught::{Taught, flowers, teach};
 use apprentice_msgs::Message;
 use apprentice_msgs::msg::{
     Candidates, EvidenceReceipt, LessonStatus, NodeSettings, PerformanceBounds, PlacementBound, PlacementDemonstration,
@@ -10,6 +10,7 @@ use apprentice_msgs::msg::{
 };
 use apprentice_msgs::{builtin_interfaces::Time, std_msgs::Header, to_cdr};
 use rustix::process::Signal;
+use scene::Point;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -33,8 +34,38 @@ fn a_flowers_lesson_ends_taught_and_its_summary_says_how() {
         assert!(of(name).as_str().is_some_and(|text| !text.is_empty()), "{name}: {}", lesson.summary);
     }
     assert_eq!(of("bag").as_str(), Some(lesson.bag.to_string_lossy().as_ref()));
-    // The person's own spot is by construction within what the robot claims, on the table of the task.
     assert!(lesson.shown.to_lowercase().contains("taught"), "{}", lesson.shown);
+}
+
+/// Where the person puts the target on the table of the task, the subject of the first question, and where the robot
+/// puts it in the end.
+fn person_and_robot(lesson: &Taught) -> (Point, Point) {
+    let bag = Recorded::read(&lesson.bag).expect("the bag opens");
+    let first = bag.distinct::<PlacementDemonstration>("demonstration").remove(0);
+    let placement = lesson.summary["placement_m"].as_array().expect("the robot has a placement");
+    let metres = |i: usize| placement[i].as_f64().expect("a number of metres");
+    (Point::new(first.placement.x, first.placement.y), Point::new(metres(0), metres(1)))
+}
+
+#[test]
+fn what_the_robot_claims_about_flowers_is_true() {
+    let lesson = flowers();
+    let (person, robot) = person_and_robot(&lesson);
+    let bound_m = lesson.summary["last_bound_m"].as_f64().expect("it is taught");
+    assert!(person.distance(robot) <= bound_m, "{} m off, {bound_m} m claimed", person.distance(robot));
+}
+
+#[test]
+fn a_spoon_lesson_ends_taught_with_the_spoon_on_the_bowl() {
+    let lesson = teach("spoon", &["--scenario", "spoon", "--seed", "1"]);
+    assert_eq!(lesson.summary["taught"], true, "{}", lesson.summary);
+    let (_, robot) = person_and_robot(&lesson);
+    let bowl = Point::new(0.62, 0.58);
+    assert!(
+        robot.distance(bowl) <= 0.07,
+        "the spoon is {} m from the middle of a bowl of 0.14 m",
+        robot.distance(bowl)
+    );
 }
 
 #[test]

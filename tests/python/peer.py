@@ -81,18 +81,14 @@ def radius(thing):
 
 
 def free_spot(scene):
-    """A spot for the target that touches nothing, on a grid."""
+    """The spot nearest to the middle, on a grid, where the target touches nothing."""
     own = radius(scene.target)
-    for i in range(1, 40):
-        for j in range(1, 40):
-            x, y = scene.width_m * i / 40, scene.depth_m * j / 40
-            inside = own < x < scene.width_m - own and own < y < scene.depth_m - own
-            apart = all(
-                math.hypot(x - thing.pose.position.x, y - thing.pose.position.y) > own + radius(thing) + 0.02
-                for thing in scene.objects
-            )
-            if inside and apart:
-                return Point(x, y, 0.0)
+    middle = (scene.width_m / 2, scene.depth_m / 2)
+    spots = [(scene.width_m * i / 40, scene.depth_m * j / 40) for i in range(4, 37) for j in range(4, 37)]
+    for x, y in sorted(spots, key=lambda spot: math.dist(spot, middle)):
+        things = [(thing, (thing.pose.position.x, thing.pose.position.y)) for thing in scene.objects]
+        if all(math.dist((x, y), at) > own + radius(thing) + 0.02 for thing, at in things):
+            return Point(x, y, 0.0)
     sys.exit("the table is full")
 
 
