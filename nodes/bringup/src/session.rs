@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 
 const DEFAULT_SCENARIO: &str = "flowers";
 const DEFAULT_SEED: i64 = 1;
+/// Written before the first node starts.
+const OWN_FILES: [&str; 4] = ["session.json", "session.yaml", "parameters.yaml", "session.lock"];
 
 /// What a session was begun with (session.json).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,6 +61,19 @@ impl Session {
         Ok(Self { dir, record, resumed, _lock: lock })
     }
 
+    /// Takes back a beginning from which nothing came, so that the folder can begin otherwise; a continued session stays.
+    pub fn abandon(self) {
+        if self.resumed {
+            return;
+        }
+        // What cannot be removed is left; the next beginning says what it thinks of it.
+        for name in OWN_FILES {
+            let _ = std::fs::remove_file(self.dir.join(name));
+        }
+        let _ = std::fs::remove_dir(self.dir.join("logs"));
+        let _ = std::fs::remove_dir(&self.dir);
+    }
+
     /// A file or folder of the session.
     pub fn path(&self, name: &str) -> PathBuf {
         self.dir.join(name)
@@ -104,9 +119,8 @@ fn begun(dir: &Path, settings: &Settings) -> Result<SessionRecord, BringupError>
 
 /// Whether a folder holds anything that `open` did not just make; what an aborted beginning left does not count.
 fn is_occupied(dir: &Path) -> bool {
-    let ours = ["logs", "session.lock", "parameters.yaml", "session.yaml"];
-    std::fs::read_dir(dir)
-        .is_ok_and(|entries| entries.flatten().any(|entry| !ours.iter().any(|name| entry.file_name() == *name)))
+    let ours = |name: &std::ffi::OsStr| name == "logs" || OWN_FILES.iter().any(|own| name == *own);
+    std::fs::read_dir(dir).is_ok_and(|entries| entries.flatten().any(|entry| !ours(&entry.file_name())))
 }
 
 /// The path, or the path with the first of -2, -3, … that does not exist.
@@ -155,6 +169,17 @@ mod tests {
             let error = Session::open(&settings, "").expect_err("another session").to_string();
             assert!(error.contains(wanted), "{error}");
         }
+    }
+
+    #[test]
+    fn an_abandoned_beginning_leaves_nothing_and_a_continued_session_everything() {
+        let root = tempfile::tempdir().expect("a folder");
+        let dir = root.path().join("s");
+        Session::open(&at(&dir), "").expect("begins").abandon();
+        assert!(!dir.exists());
+        drop(Session::open(&at(&dir), "").expect("begins"));
+        Session::open(&at(&dir), "").expect("goes on").abandon();
+        assert!(dir.join("session.json").exists());
     }
 
     #[test]

@@ -47,7 +47,13 @@ fn begin(line: &CommandLine, nodes: &[NodeInfo], commit: &str) -> Result<u8, Bri
         namespace,
         log_level: line.flags.log_level.clone().unwrap_or_else(|| "info".to_owned()),
     };
-    let launched = launch(&settings, &session, nodes, &common)?;
+    let launched = match launch(&settings, &session, nodes, &common) {
+        Ok(launched) => launched,
+        Err(error) => {
+            session.abandon();
+            return Err(error);
+        }
+    };
     let console = Console::new(line.flags.no_color);
     let bag = settings.record.then(|| session.path("bag").to_string_lossy().into_owned());
     introduce(&console, &session, &settings, bag.as_deref(), &common.namespace, commit);
