@@ -2,8 +2,8 @@
 //! exact one. Leapfrog with any deterministic force is reversible and keeps volume, so the exact posterior is left
 //! invariant however coarse the force is; only the share of accepted moves tells.
 
-use rand::Rng;
 use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::Rng;
 
 use crate::likelihood::Scratch;
 use crate::linear::{dot, lower_times, upper_times};

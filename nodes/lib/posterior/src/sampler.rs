@@ -70,9 +70,21 @@ pub fn sample(
     let target = Target { prior: settings.prior, exact: &exact, force: &force };
     let evidence = evidence_hash(demonstrations);
     let chains = (0..settings.n_chains).map(|chain| Chain::new(target, generator(seed, &evidence, chain))).collect();
-    let mut draws = run(settings, chains);
-    draws.map_weights = map_weights;
-    draws.map_log_likelihood = map_log_likelihood;
+    let runners = run(settings, chains);
+    let acceptance: f64 = runners.iter().map(|runner| runner.acceptance).sum();
+    let mut draws = Draws {
+        n_chains: settings.n_chains,
+        per_chain: settings.per_chain(),
+        n_features: lesson.n_features(),
+        values: runners.iter().flat_map(|runner| runner.values.iter().copied()).collect(),
+        log_likelihood: runners.iter().flat_map(|runner| runner.log_likelihood.iter().copied()).collect(),
+        map_weights,
+        map_log_likelihood,
+        acceptance: acceptance / settings.n_draws as f64,
+        rhat_max: f64::INFINITY,
+        ess_bulk_min: 0.0,
+        ess_tail_min: 0.0,
+    };
     draws.diagnose();
     Ok(draws)
 }
@@ -103,10 +115,11 @@ struct Runner<'a> {
     log_likelihood: Vec<f64>,
 }
 
-fn run(settings: &Settings, chains: Vec<Chain<'_>>) -> Draws {
+/// Warms all chains up and lets them run.
+fn run<'a>(settings: &Settings, chains: Vec<Chain<'a>>) -> Vec<Runner<'a>> {
     let n = chains[0].z.len();
     let per_chain = settings.per_chain();
-    let mut runners: Vec<Runner<'_>> = chains
+    let mut runners: Vec<Runner<'a>> = chains
         .into_iter()
         .map(|chain| Runner {
             chain,
@@ -138,20 +151,7 @@ fn run(settings: &Settings, chains: Vec<Chain<'_>>) -> Draws {
     let log_steps: f64 = runners.iter().map(|r| libm::log(r.step.averaged())).sum();
     let step_size = libm::exp(log_steps / runners.len() as f64);
     in_parallel(&mut runners, settings.threads, |runner| runner.keep(per_chain, step_size, &scale));
-
-    Draws {
-        n_chains: runners.len(),
-        per_chain,
-        n_features: n,
-        acceptance: runners.iter().map(|r| r.acceptance).sum::<f64>() / (runners.len() * per_chain) as f64,
-        values: runners.iter().flat_map(|r| r.values.iter().copied()).collect(),
-        log_likelihood: runners.iter().flat_map(|r| r.log_likelihood.iter().copied()).collect(),
-        map_weights: Vec::new(),
-        map_log_likelihood: 0.0,
-        rhat_max: 0.0,
-        ess_bulk_min: 0.0,
-        ess_tail_min: 0.0,
-    }
+    runners
 }
 
 impl Runner<'_> {

@@ -73,7 +73,7 @@ fn agrees_with_weighted_draws_from_the_prior() {
     for prior in [Prior::L1Sphere, Prior::L2Sphere] {
         let mut random = Random(11);
         let (mut total, mut squares) = (0.0, 0.0);
-        let mut moments = vec![[0.0; 2]; 9];
+        let mut moments = [[0.0; 2]; 9];
         for _ in 0..60_000 {
             let w = match prior {
                 Prior::L1Sphere => random.l1_sphere(9),

@@ -52,7 +52,7 @@ impl<'a> Series<'a> {
     /// Checks and sorts `draws`, which hold `n_chains` chains of equal length one after another.
     pub fn new(draws: &'a [f64], n_chains: usize) -> Result<Self, SeriesError> {
         let n = draws.len();
-        if n_chains == 0 || n % n_chains != 0 {
+        if n_chains == 0 || !n.is_multiple_of(n_chains) {
             return Err(SeriesError::Ragged { n, n_chains });
         }
         let per_chain = n / n_chains;

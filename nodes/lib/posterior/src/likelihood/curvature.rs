@@ -4,7 +4,7 @@ use super::Likelihood;
 use super::cells::{FIXED_SIDE, LANES, Lanes};
 use super::kernel::{Scratch, exponentials, fixed_rewards, sum_lanes};
 
-/// Σ β_d² Cov_d[φ], row-major and symmetric.
+/// Σ β_d² Cov_d φ, row-major and symmetric.
 #[inline(always)]
 pub(super) fn information(likelihood: &Likelihood, w: &[f64], scratch: &mut Scratch) -> Vec<f64> {
     let n = likelihood.n_features;

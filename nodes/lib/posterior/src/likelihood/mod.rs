@@ -71,7 +71,7 @@ impl Likelihood {
         self.value_with(w, &mut self.scratch())
     }
 
-    /// log P(placements | w); its gradient Σ β_d (φ(x_d) − E_d[φ]) goes to `gradient`.
+    /// log P(placements | w); its gradient Σ β_d (φ(x_d) − E_d φ) goes to `gradient`.
     pub fn value_and_gradient(&self, w: &[f64], gradient: &mut [f64]) -> f64 {
         self.value_and_gradient_with(w, gradient, &mut self.scratch())
     }
@@ -88,7 +88,7 @@ impl Likelihood {
         self.arch.dispatch(ValueAndGradient { likelihood: self, w, gradient, scratch })
     }
 
-    /// Fisher information −∇² = Σ β_d² Cov_d[φ], row-major and symmetric.
+    /// Fisher information −∇² = Σ β_d² Cov_d φ, row-major and symmetric.
     pub(crate) fn information(&self, w: &[f64], scratch: &mut Scratch) -> Vec<f64> {
         self.arch.dispatch(Information { likelihood: self, w, scratch })
     }
@@ -139,5 +139,90 @@ impl WithSimd for Information<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) -> Vec<f64> {
         curvature::information(self.likelihood, self.w, self.scratch)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Likelihood, Placement};
+    use pulp::Arch;
+    use scene::{Grid, Object, Point, Scene, Shape};
+
+    fn scene() -> Scene {
+        let cup = |id: &str, x: f64, y: f64| Object {
+            id: id.into(),
+            label: id.into(),
+            shape: Shape::Cylinder { radius_m: 0.05, height_m: 0.1 },
+            position_m: Point::new(x, y),
+            yaw_rad: 0.0,
+            supports: false,
+        };
+        Scene {
+            id: "table".into(),
+            frame: "table".into(),
+            width_m: 1.0,
+            depth_m: 1.0,
+            objects: vec![cup("a", 0.2, 0.3), cup("b", 0.6, 0.8)],
+            target: cup("target", 0.0, 0.0),
+        }
+    }
+
+    fn weights() -> Vec<f64> {
+        (0..11).map(|k| f64::from(k * k % 7 - 3) / 20.0).collect()
+    }
+
+    #[test]
+    fn every_vector_width_gives_the_same_bits() {
+        let scene = scene();
+        for (beta, side) in [(100.0, 64), (3000.0, 16), (5.0, 13)] {
+            let placement = Placement { scene: &scene, at: Point::new(0.4, 0.5), beta, masked: true };
+            let widest = Likelihood::new(11, &[placement, placement], &Grid::midpoints(side));
+            let scalar = Likelihood { arch: Arch::Scalar, ..widest.clone() };
+            let of = |likelihood: &Likelihood| {
+                let mut gradient = vec![0.0; 11];
+                let value = likelihood.value_and_gradient(&weights(), &mut gradient);
+                let information = likelihood.information(&weights(), &mut likelihood.scratch());
+                (value.to_bits(), likelihood.value(&weights()).to_bits(), gradient, information)
+            };
+            assert_eq!(of(&widest), of(&scalar));
+        }
+    }
+
+    #[test]
+    fn information_is_minus_the_second_derivative() {
+        let scene = scene();
+        let placement = Placement { scene: &scene, at: Point::new(0.4, 0.5), beta: 30.0, masked: true };
+        let likelihood = Likelihood::new(11, &[placement], &Grid::midpoints(24));
+        let information = likelihood.information(&weights(), &mut likelihood.scratch());
+        let gradient = |k: usize, by: f64| {
+            let (mut w, mut gradient) = (weights(), vec![0.0; 11]);
+            w[k] += by;
+            likelihood.value_and_gradient(&w, &mut gradient);
+            gradient
+        };
+        for k in 0..11 {
+            let (above, below) = (gradient(k, 1e-6), gradient(k, -1e-6));
+            for i in 0..11 {
+                let numeric = -(above[i] - below[i]) / 2e-6;
+                let got = information[k * 11 + i];
+                assert!((got - numeric).abs() < 1e-4 * (1.0 + numeric.abs()), "{k}, {i}: {got} vs {numeric}");
+            }
+        }
+    }
+
+    #[test]
+    fn wide_cells_come_close_and_count_what_is_free() {
+        let scene = scene();
+        let placement = [Placement { scene: &scene, at: Point::new(0.4, 0.5), beta: 100.0, masked: true }];
+        let grid = Grid::midpoints(64);
+        let exact = Likelihood::new(11, &placement, &grid);
+        let wide = exact.coarsened(&placement, &grid, 4).expect("4 divides 64");
+        assert_eq!(wide.fixed.side(), 16);
+        // A hill in the middle of the table, as in a lesson.
+        let hill: Vec<f64> = (0..11).map(|k| if k == 6 { 0.8 } else { -0.02 }).collect();
+        let (near, value) = (wide.value(&hill), exact.value(&hill));
+        assert!((near - value).abs() < 0.02, "{near} vs {value}");
+        assert!((wide.cells[0].log_n_free - libm::log(exact.cells[0].n_free as f64 / 16.0)).abs() < 1e-12);
+        assert!(exact.coarsened(&placement, &grid, 3).is_none());
     }
 }
