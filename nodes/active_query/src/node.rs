@@ -84,11 +84,11 @@ impl ActiveQuery {
             });
             if imagined.is_empty() { vec![base.clone()] } else { imagined }
         };
-        let stamp = posterior.header.stamp.clone();
+        let stamp = posterior.header.stamp;
         let candidates = Candidates {
             header: posterior.header.clone(),
             revision: posterior.revision,
-            scenes: scenes.iter().map(|scene| scene_to_message(scene, stamp.clone())).collect(),
+            scenes: scenes.iter().map(|scene| scene_to_message(scene, stamp)).collect(),
         };
         self.query = None;
         self.lesson = None;

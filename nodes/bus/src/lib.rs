@@ -12,7 +12,7 @@
 //! - Settings, heartbeat (2 Hz), `/diagnostics` (1 Hz), `/rosout` and the parameter services come with
 //!   [`Bus::open`]; the node does nothing for them.
 //! - SIGINT, SIGTERM, the death of the process named in `APPRENTICE_PARENT_PID`, [`MemoryGraph::shutdown`] and
-//!   [`Stopper::stop`] all have [`Bus::next`] return `None`; a second SIGINT ends the process at once.
+//!   [`Stopper::stop`] all have [`Bus::next`] return `None`; a SIGINT after 10 s of that ends the process at once.
 
 mod arguments;
 mod bus;

@@ -3,7 +3,7 @@
 use std::{
     sync::{Mutex, OnceLock, PoisonError},
     thread,
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use signal_hook::{
@@ -19,8 +19,11 @@ const PARENT_VARIABLE: &str = "APPRENTICE_PARENT_PID";
 /// How often the parent is looked for.
 const PARENT_PERIOD: Duration = Duration::from_millis(500);
 
-/// The exit code of a process that a second SIGINT ends at once.
+/// The exit code of a process that has not ended in time, and is interrupted again.
 const INTERRUPTED: i32 = 130;
+
+/// How long nodes may take to end before another SIGINT ends the process at once.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// The nodes to end.
 static STOPPERS: Mutex<Vec<Stopper>> = Mutex::new(Vec::new());
@@ -52,16 +55,22 @@ fn stop_all() {
     }
 }
 
+#[expect(clippy::disallowed_methods, reason = "how long a person has waited is a matter of real time")]
+fn now() -> Instant {
+    Instant::now()
+}
+
 /// Starts the threads that wait.
 fn install() -> std::io::Result<()> {
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     thread::Builder::new().name("signals".to_owned()).spawn(move || {
-        let mut interrupted = false;
+        let mut first: Option<Instant> = None;
         for signal in signals.forever() {
-            if signal == SIGINT && interrupted {
+            // A signal often comes twice, from a terminal and from a launcher; bags are to be finished all the same.
+            let now = now();
+            if signal == SIGINT && now.duration_since(*first.get_or_insert(now)) > PATIENCE {
                 std::process::exit(INTERRUPTED);
             }
-            interrupted |= signal == SIGINT;
             stop_all();
         }
     })?;

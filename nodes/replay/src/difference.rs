@@ -63,13 +63,14 @@ fn first(a: &Value, b: &Value, path: &mut String) -> Option<(String, String)> {
             Some((a.len().to_string(), b.len().to_string()))
         }
         // Text, not `==`: −0 and 0 are equal numbers with different bits.
-        _ if a.to_string() == b.to_string() => None,
-        _ => Some((shortened(a), shortened(b))),
+        _ => {
+            let (x, y) = (a.to_string(), b.to_string());
+            (x != y).then(|| (shortened(x), shortened(y)))
+        }
     }
 }
 
-fn shortened(value: &Value) -> String {
-    let text = value.to_string();
+fn shortened(text: String) -> String {
     match text.char_indices().nth(200) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text,

@@ -103,7 +103,7 @@ impl Evidence {
                 _ => &record.response.first().expect("a record holds one event").header,
             });
         let frame_id = self.task.as_ref().map(|(message, _)| message.header.frame_id.clone()).unwrap_or_default();
-        let stamp = newest.or(self.task.as_ref().map(|(message, _)| &message.header)).map(|h| h.stamp.clone());
+        let stamp = newest.or(self.task.as_ref().map(|(message, _)| &message.header)).map(|h| h.stamp);
         Header { stamp: stamp.unwrap_or_default(), frame_id }
     }
 }

@@ -246,7 +246,7 @@ impl RewardPosterior {
 
     fn settle(&mut self, header: &Header, id: &str, source: &str, what: &str, verdict: Verdict) -> Vec<Output> {
         let receipt = |outcome, reason: String, revision| {
-            let header = Header { stamp: header.stamp.clone(), frame_id: String::new() };
+            let header = Header { stamp: header.stamp, frame_id: String::new() };
             Output::Receipt(EvidenceReceipt { header, id: id.chars().take(128).collect(), outcome, reason, revision })
         };
         match verdict {

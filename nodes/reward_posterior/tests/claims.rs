@@ -147,10 +147,7 @@ fn bad_demonstrations_are_refused_in_one_sentence_each() {
     let mut bench = Bench::new();
     assert_eq!(bench.refused(shown("", 0.5, 0.5)), "its id has 0 characters; 1 to 128 are allowed");
     assert_eq!(bench.refused(shown("d", f64::NAN, 0.5)), "the placement is (NaN, 0.5, 0); finite metres are needed");
-    assert_eq!(
-        bench.refused(shown("d", 0.25, 0.25)),
-        "the vase cannot be at (0.25, 0.25) m: it would stand on 'cup'"
-    );
+    assert_eq!(bench.refused(shown("d", 0.25, 0.25)), "the vase cannot be at (0.25, 0.25) m: it would stand on 'cup'");
     assert_eq!(
         bench.refused(shown("d", 1.5, 0.5)),
         "the vase cannot be at (1.5, 0.5) m: it would stick out over the table's edge"
@@ -166,10 +163,7 @@ fn bad_demonstrations_are_refused_in_one_sentence_each() {
     assert!(bench.refused(twice).contains("has the object id 'cup' twice"));
     let mut other = shown("d", 0.5, 0.5);
     other.scene.objects[1].id = "pan".into();
-    assert_eq!(
-        bench.refused(other),
-        "its scene has the objects [cup, pan], but this lesson is about [cup, plate]"
-    );
+    assert_eq!(bench.refused(other), "its scene has the objects [cup, pan], but this lesson is about [cup, plate]");
     let unsure = PlacementDemonstration { confidence: 9, ..shown("d", 0.5, 0.5) };
     assert_eq!(bench.refused(unsure), "its confidence is 9; 0 (sure), 1 (fairly) and 2 (a guess) are known");
 }

@@ -3,8 +3,8 @@
 use active_query::ActiveQuery;
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
-    EvidenceReceipt, LessonStatus, PerformanceBounds, PlacementBound, PlacementDemonstration, PlacementQuery, Posterior,
-    QueryResponse,
+    EvidenceReceipt, LessonStatus, PerformanceBounds, PlacementBound, PlacementDemonstration, PlacementQuery,
+    Posterior, QueryResponse,
 };
 use bus::Arguments;
 use demonstrator::{Answer, Person, true_error_m};
@@ -109,8 +109,7 @@ impl Classroom {
     pub fn hold(&self, seed: u64, n_tests: usize) -> Result<Held, LessonError> {
         let signed = i64::try_from(seed).unwrap_or(i64::MAX);
         let person = Person::new(&demonstrator::Settings { seed: signed, ..self.person.clone() });
-        let mut posterior =
-            RewardPosterior::new(reward_posterior::Settings { seed: signed, ..self.posterior.clone() });
+        let mut posterior = RewardPosterior::new(reward_posterior::Settings { seed: signed, ..self.posterior.clone() });
         let mut bounds = PerformanceBoundsNode::new(self.bounds.clone());
         let mut query = ActiveQuery::new(active_query::Settings { seed: signed, ..self.query.clone() });
         let tests = test_tables(&self.task, n_tests, seed);
@@ -224,10 +223,8 @@ fn test_tables(task: &Scene, n: usize, seed: u64) -> Vec<Scene> {
         let mut scene = Scene { id: format!("test {}", tables.len()), ..task.clone() };
         for object in &mut scene.objects {
             let r = object.shape.bounding_radius_m();
-            object.position_m = Point::new(
-                rng.random_range(r..=task.width_m - r),
-                rng.random_range(r..=task.depth_m - r),
-            );
+            object.position_m =
+                Point::new(rng.random_range(r..=task.width_m - r), rng.random_range(r..=task.depth_m - r));
         }
         let clear = scene.objects.iter().enumerate().all(|(i, a)| {
             let r = a.shape.bounding_radius_m();

@@ -61,18 +61,29 @@ fn report(name: &str, classroom: &Classroom, lessons: &[Held]) {
     let taught: Vec<&Held> = lessons.iter().filter(|held| held.taught).collect();
     let mut questions: Vec<u32> = taught.iter().map(|held| held.questions).collect();
     questions.sort_unstable();
-    println!("{name}: {} of {} lessons taught, ε = {:.1} cm", taught.len(), lessons.len(), 100.0 * classroom.epsilon_m());
+    println!(
+        "{name}: {} of {} lessons taught, ε = {:.1} cm",
+        taught.len(),
+        lessons.len(),
+        100.0 * classroom.epsilon_m()
+    );
     if let (Some(first), Some(last)) = (questions.first(), questions.last()) {
         println!("  questions to taught: min {first}, median {}, max {last}", questions[questions.len() / 2]);
         let of = |pick: fn(&crate::lesson::Measured) -> f64| {
             let values: Vec<f64> = taught.iter().filter_map(|held| held.history.last()).map(pick).collect();
-            (100.0 * values.iter().sum::<f64>() / values.len() as f64, 100.0 * values.iter().copied().fold(0.0, f64::max))
+            (
+                100.0 * values.iter().sum::<f64>() / values.len() as f64,
+                100.0 * values.iter().copied().fold(0.0, f64::max),
+            )
         };
         let ((mean, worst_mean), (largest, worst)) = (of(|m| m.mean_error_m), of(|m| m.worst_error_m));
         println!("  true error when taught: mean {mean:.2} cm (worst lesson {worst_mean:.2} cm)");
         println!("  largest true error over the test tables: mean {largest:.2} cm, worst lesson {worst:.2} cm");
     }
-    println!("  {:>5} {:>9} {:>11} {:>11} {:>12} {:>8} {:>8}", "shown", "bound cm", "mean err cm", "worst err cm", "within bound", "R-hat", "ESS");
+    println!(
+        "  {:>5} {:>9} {:>11} {:>11} {:>12} {:>8} {:>8}",
+        "shown", "bound cm", "mean err cm", "worst err cm", "within bound", "R-hat", "ESS"
+    );
     for n in 1..=lessons.iter().map(|held| held.history.len()).max().unwrap_or(0) {
         let at: Vec<_> = lessons.iter().filter_map(|held| held.history.get(n - 1)).collect();
         let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len() as f64;
