@@ -1,4 +1,5 @@
-//! The figures of the main job, measured on this machine: `cargo bench --bench figures`.
+//! The figures of the main job, measured on this machine: `cargo bench --bench figures`, or one of them:
+//! `cargo bench --bench figures -- recorder`.
 //!
 //! Prints a table, and leaves the same as JSON under `target/tmp/end_to_end/figures`. Nothing here passes or fails.
 
@@ -21,13 +22,19 @@ fn main() {
     if let Some(at) = arguments.iter().position(|word| word == "flood") {
         return flood::publish(&arguments[at + 1..]);
     }
+    // One figure by its name, or all of them.
+    let only = arguments.iter().skip(1).find(|word| !word.starts_with('-'));
+    let of = |name: &str, measure: &dyn Fn() -> Value| match only {
+        Some(wanted) if wanted != name => Value::Null,
+        _ => measure(),
+    };
     let executable = std::fs::metadata(env!("CARGO_BIN_EXE_apprentice")).map_or(0, |file| file.len());
     let figures = json!({
         "executable_mb": megabytes(executable),
-        "flowers": lesson::measure("flowers"),
-        "spoon": lesson::measure("spoon"),
-        "page": page::measure(),
-        "recorder": flood::measure(),
+        "flowers": of("flowers", &|| lesson::measure("flowers")),
+        "spoon": of("spoon", &|| lesson::measure("spoon")),
+        "page": of("page", &page::measure),
+        "recorder": of("recorder", &flood::measure),
     });
     show("", &figures);
     let file = suite::fresh_folder("figures").join("figures.json");
@@ -46,6 +53,7 @@ fn show(path: &str, value: &Value) {
                 show(&path, member);
             }
         }
+        Value::Null => {}
         Value::Number(number) if number.is_f64() => {
             println!("{path:<64} {:>12.3}", number.as_f64().unwrap_or(f64::NAN))
         }
