@@ -1,5 +1,6 @@
 //! Bad input on the command line and on disk: one clear line, exit code 2, and no panic.
 
+use crate::recorded::Recorded;
 use crate::suite::{Turn, apprentice, fresh_domain, fresh_folder, run};
 use crate::taught::flowers;
 use std::path::{Path, PathBuf};
@@ -79,6 +80,14 @@ fn a_port_in_use_is_refused() {
     let lines: Vec<&str> = told.lines().filter(|line| line.contains(&port)).collect();
     assert_eq!(lines.len(), 1, "{told}");
     assert!(lines[0].contains("in use") && !told.contains("panicked"), "{told}");
+
+    // A whole lesson that needs the page ends too, and finishes what it has recorded.
+    let session = fresh_folder("port-in-use").join("session");
+    let output = run(&["--demonstrator", "human", "--session", &text(&session), "--port", &port]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    let shown = format!("{}{}", String::from_utf8_lossy(&output.stdout), stderr(&output));
+    assert_eq!(shown.lines().filter(|line| line.contains("in use")).count(), 1, "{shown}");
+    assert!(Recorded::read(&session.join("bag")).expect("the bag opens").whole);
 }
 
 #[test]

@@ -45,28 +45,54 @@ fn every_command_of_the_readme_is_there() {
     let readme = std::fs::read_to_string(files::top().join("README.md")).expect("there is a README");
     let help = words(&apprentice(&["help"])) + &words(&apprentice(&["--help"]));
     let mut n_commands = 0;
-    for line in code_lines(&readme) {
-        let mut words = line.split_whitespace().skip_while(|word| word.contains('=')).peekable();
-        let own: Vec<&str> = match words.next() {
-            Some("cargo") => words.skip_while(|word| *word != "--").skip(1).collect(),
-            Some("apprentice") => words.collect(),
-            Some(script) if script.starts_with("tests/") || script.starts_with(".ci/") => {
-                assert!(files::top().join(script).is_file(), "the README names {script}");
-                n_commands += 1;
-                continue;
+    for line in code_lines(&readme).into_iter().chain(code_words(&readme)) {
+        let words: Vec<&str> =
+            line.split_whitespace().skip_while(|word| word.contains('=') && !word.starts_with('-')).collect();
+        let Some((first, rest)) = words.split_first() else { continue };
+        let own: Vec<&str> = match *first {
+            "cargo" => match rest.iter().position(|word| *word == "-p") {
+                Some(at) => {
+                    assert!(is_package(rest.get(at + 1).unwrap_or(&"")), "README: `{line}`: there is no such package");
+                    Vec::new()
+                }
+                None => rest.iter().copied().skip_while(|word| *word != "--").skip(1).collect(),
+            },
+            "apprentice" => rest.to_vec(),
+            script if script.starts_with("tests/") || script.starts_with(".ci/") => {
+                assert!(files::top().join(script).exists(), "the README names {script}");
+                Vec::new()
             }
             _ => continue,
         };
         n_commands += 1;
-        for word in own.iter().take_while(|word| **word != "--ros-args").filter(|word| word.starts_with("--")) {
-            let option = word.split('=').next().unwrap_or(word);
-            assert!(help.contains(option), "README: `{line}`: {option} is not in the help:\n{help}");
-        }
-        if let Some(command) = own.first().filter(|word| !word.starts_with('-')) {
-            assert!(help.contains(*command), "README: `{line}`: {command} is not in the help:\n{help}");
-        }
+        check_words(&line, &own, &help);
     }
-    assert!(n_commands >= 2, "the README gives at least the two commands: run it, test it");
+    assert!(n_commands >= 5, "{n_commands} commands were found in the README; run it and test it, at least");
+}
+
+/// Every flag, and the command if there is one, must be in the help.
+fn check_words(line: &str, own: &[&str], help: &str) {
+    for word in own.iter().take_while(|word| **word != "--ros-args").filter(|word| word.starts_with("--")) {
+        let option = word.split('=').next().unwrap_or(word);
+        let of_replay = own.first() == Some(&"replay") && option == "--verify";
+        assert!(of_replay || help.contains(option), "README: `{line}`: {option} is not in the help:\n{help}");
+    }
+    if let Some(command) = own.first().filter(|word| !word.starts_with(['-', '<', '…'])) {
+        assert!(help.contains(*command), "README: `{line}`: {command} is not in the help:\n{help}");
+    }
+}
+
+fn is_package(name: &str) -> bool {
+    let line = format!("name = \"{name}\"");
+    files::all().iter().any(|file| file.path.ends_with("Cargo.toml") && file.text.lines().any(|l| l == line))
+}
+
+/// The commands that stand in the text of a Markdown file, between backquotes.
+fn code_words(text: &str) -> Vec<String> {
+    let spans = text.lines().flat_map(|line| line.split('`').skip(1).step_by(2));
+    let is_command =
+        |span: &&str| ["apprentice ", "cargo ", "tests/", ".ci/"].iter().any(|start| span.starts_with(start));
+    spans.filter(is_command).map(str::to_owned).collect()
 }
 
 /// The lines of the shell code in a Markdown text, without comments.
