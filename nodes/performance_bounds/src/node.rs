@@ -3,14 +3,13 @@
 use crate::Settings;
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{Candidates, PerformanceBounds, PlacementBound, Posterior};
-use exchange::{point_to_message, scene_from_message};
+use exchange::{check_posterior, point_to_message, scene_from_message};
 use placement::{LossBatch, placement_losses};
 use risk::{Outcome, delta_spent, upper_bound};
 use scene::Scene;
 
 /// More tables than this are not judged in one look.
 const MAX_SCENES: usize = 1000;
-const MAX_FEATURES: usize = scene::MAX_OBJECTS + scene::FIXED_CENTRES.len();
 
 /// What reaches the node.
 #[derive(Debug, Clone)]
@@ -38,23 +37,26 @@ pub struct PerformanceBoundsNode {
     posterior: Option<Box<Posterior>>,
     candidates: Option<Box<Candidates>>,
     newest: Option<Box<PerformanceBounds>>,
+    refused: Option<Box<Candidates>>,
 }
 
 impl PerformanceBoundsNode {
     /// A node that has seen nothing.
     pub fn new(settings: Settings) -> Self {
-        Self { settings, posterior: None, candidates: None, newest: None }
+        Self { settings, posterior: None, candidates: None, newest: None, refused: None }
     }
 
     /// Takes one event. Outputs depend on the settings and the messages alone, never on `_now`.
     pub fn step(&mut self, _now: Time, event: Event) -> Vec<Output> {
         match event {
             Event::Posterior(posterior) => {
-                if let Err(reason) = check(&posterior) {
+                if let Err(reason) = check_posterior(&posterior) {
                     return vec![Output::Warn(format!("posterior {} is ignored: {reason}", posterior.revision))];
                 }
                 self.posterior = Some(posterior);
             }
+            // Candidates are sent again until they are judged; what is wrong with them is said once.
+            Event::Candidates(candidates) if self.refused.as_ref() == Some(&candidates) => return Vec::new(),
             Event::Candidates(candidates) => self.candidates = Some(candidates),
             Event::Republish => return self.newest.iter().cloned().map(Output::Bounds).collect(),
         }
@@ -70,8 +72,9 @@ impl PerformanceBoundsNode {
                 vec![Output::Bounds(bounds)]
             }
             Err(reason) => {
-                self.candidates = None;
-                vec![Output::Warn(format!("the candidates of revision {} are ignored: {reason}", posterior.revision))]
+                let warning = format!("the candidates of revision {} are ignored: {reason}", posterior.revision);
+                self.refused = self.candidates.take();
+                vec![Output::Warn(warning)]
             }
         }
     }
@@ -239,23 +242,6 @@ fn no_placement(scene: &Scene, n: u64) -> PlacementBound {
         rhat: f64::NAN,
         ..PlacementBound::default()
     }
-}
-
-/// The shape of a posterior, before anything is computed from it.
-fn check(posterior: &Posterior) -> Result<(), String> {
-    let k = posterior.feature_names.len();
-    if k == 0 || k > MAX_FEATURES {
-        return Err(format!("it has {k} features; 1 to {MAX_FEATURES} are supported"));
-    }
-    if posterior.map_weights.len() != k {
-        return Err(format!("it has {k} features but {} MAP weights", posterior.map_weights.len()));
-    }
-    let (n, m) = (posterior.n_draws as usize, posterior.n_chains as usize);
-    if m == 0 || n == 0 || n % m != 0 || posterior.draws.len() != n * k {
-        return Err(format!("{} numbers are not {n} draws of {k} weights in {m} chains", posterior.draws.len()));
-    }
-    let finite = posterior.draws.iter().all(|w| w.is_finite()) && posterior.map_weights.iter().all(|w| w.is_finite());
-    if finite { Ok(()) } else { Err("it holds weights that are not finite".into()) }
 }
 
 fn threads(setting: i64) -> usize {

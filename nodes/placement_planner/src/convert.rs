@@ -2,7 +2,7 @@
 
 use apprentice_msgs::builtin_interfaces::Duration;
 use apprentice_msgs::geometry_msgs::Point as PointMessage;
-use apprentice_msgs::msg::{PlacementPlan as PlanMessage, Posterior};
+use apprentice_msgs::msg::PlacementPlan as PlanMessage;
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
@@ -32,20 +32,6 @@ pub(crate) fn start(names: &[String], joints: &[(String, f64)]) -> JointState {
     let known = names.iter().filter_map(|name| joints.iter().find(|(joint, _)| joint == name));
     let (name, position) = known.cloned().unzip();
     JointState { name, position, ..JointState::default() }
-}
-
-/// The shape of a posterior, before anything is computed from it.
-pub(crate) fn check(posterior: &Posterior) -> Result<(), String> {
-    let k = posterior.feature_names.len();
-    let max = scene::MAX_OBJECTS + scene::FIXED_CENTRES.len();
-    if k == 0 || k > max || posterior.map_weights.len() != k {
-        return Err(format!("it has {k} features and {} MAP weights", posterior.map_weights.len()));
-    }
-    if posterior.draws.len() != posterior.n_draws as usize * k {
-        return Err(format!("{} numbers are not {} draws of {k} weights", posterior.draws.len(), posterior.n_draws));
-    }
-    let finite = posterior.draws.iter().all(|w| w.is_finite()) && posterior.map_weights.iter().all(|w| w.is_finite());
-    if finite { Ok(()) } else { Err("it holds weights that are not finite".into()) }
 }
 
 pub(crate) fn outcome(outcome: PlanOutcome) -> u8 {

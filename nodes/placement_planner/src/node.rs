@@ -5,7 +5,7 @@ use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, TableScene};
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
-use exchange::scene_from_message;
+use exchange::{check_posterior, scene_from_message};
 use placement::{LossBatch, MAP_SIDE, ManipulatorError, Planner};
 use scene::{Rbf, Scene};
 use sha2::{Digest, Sha256};
@@ -101,7 +101,7 @@ impl PlacementPlanner {
                 if self.posterior.as_ref().is_some_and(|known| known.revision == posterior.revision) {
                     return Vec::new();
                 }
-                if let Err(reason) = convert::check(&posterior) {
+                if let Err(reason) = check_posterior(&posterior) {
                     return vec![Output::Warn(format!("posterior {} is ignored: {reason}", posterior.revision))];
                 }
                 self.posterior = Some(posterior);
@@ -148,7 +148,7 @@ impl PlacementPlanner {
 
     /// Plans: a function of the settings, the robot and the request.
     pub fn plan(&mut self, request: &Request<'_>) -> Result<PlanMessage, String> {
-        convert::check(request.posterior)?;
+        check_posterior(request.posterior).map_err(|error| error.to_string())?;
         let scene: Scene = scene_from_message(request.scene).map_err(|error| error.to_string())?;
         if Rbf::names(&scene) != request.posterior.feature_names {
             return Err(format!("the objects of scene '{}' are not those of the posterior", scene.id));

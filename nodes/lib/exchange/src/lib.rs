@@ -2,11 +2,13 @@
 
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Point as PointMessage, Pose, Quaternion, Vector3};
-use apprentice_msgs::msg::{SceneObject, TableScene};
+use apprentice_msgs::msg::{Posterior, SceneObject, TableScene};
 use apprentice_msgs::std_msgs::Header;
-use scene::{MAX_OBJECTS, Object, Point, Scene, SceneError, Shape};
+use scene::{FIXED_CENTRES, MAX_OBJECTS, Object, Point, Scene, SceneError, Shape};
 use thiserror::Error;
 
+/// More weights than this are refused.
+const MAX_FEATURES: usize = MAX_OBJECTS + FIXED_CENTRES.len();
 /// How far a rotation may tilt from the vertical, as the sum of squares of the quaternion's x and y.
 const TILT: f64 = 1e-4;
 
@@ -52,6 +54,58 @@ pub enum ExchangeError {
         /// Got.
         z: f64,
     },
+}
+
+/// Why a posterior cannot be computed with.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum PosteriorError {
+    /// No weights, or too many.
+    #[error("it has {got} features; 1 to {MAX_FEATURES} are supported")]
+    Features {
+        /// Got.
+        got: usize,
+    },
+    /// One MAP weight per feature.
+    #[error("it has {expected} features but {got} MAP weights")]
+    MapWeights {
+        /// Features.
+        expected: usize,
+        /// Got.
+        got: usize,
+    },
+    /// Equally long chains of one row per draw.
+    #[error("{got} numbers are not {draws} draws of {features} weights in {chains} chains")]
+    Draws {
+        /// Numbers.
+        got: usize,
+        /// Draws announced.
+        draws: usize,
+        /// Weights per draw.
+        features: usize,
+        /// Chains announced.
+        chains: usize,
+    },
+    /// Weights must be numbers.
+    #[error("it holds weights that are not finite")]
+    NotFinite,
+}
+
+/// Whether the parts of a posterior fit together and are finite: what a node must know before it computes with it.
+pub fn check_posterior(posterior: &Posterior) -> Result<(), PosteriorError> {
+    let k = posterior.feature_names.len();
+    if k == 0 || k > MAX_FEATURES {
+        return Err(PosteriorError::Features { got: k });
+    }
+    if posterior.map_weights.len() != k {
+        return Err(PosteriorError::MapWeights { expected: k, got: posterior.map_weights.len() });
+    }
+    let (draws, chains) = (posterior.n_draws as usize, posterior.n_chains as usize);
+    let even = chains > 0 && draws > 0 && draws.is_multiple_of(chains);
+    if !even || Some(posterior.draws.len()) != draws.checked_mul(k) {
+        return Err(PosteriorError::Draws { got: posterior.draws.len(), draws, features: k, chains });
+    }
+    let finite = posterior.draws.iter().all(|w| w.is_finite()) && posterior.map_weights.iter().all(|w| w.is_finite());
+    if finite { Ok(()) } else { Err(PosteriorError::NotFinite) }
 }
 
 /// The checked scene of a message.
@@ -148,9 +202,10 @@ fn object_to_message(object: &Object) -> SceneObject {
 
 #[cfg(test)]
 mod tests {
-    use super::{ExchangeError, point_from_message, scene_from_message, scene_to_message};
+    use super::{ExchangeError, check_posterior, point_from_message, scene_from_message, scene_to_message};
     use apprentice_msgs::builtin_interfaces::Time;
     use apprentice_msgs::geometry_msgs::Point as PointMessage;
+    use apprentice_msgs::msg::Posterior;
     use scene::{Object, Point, Scene, Shape};
 
     fn scene() -> Scene {
@@ -182,6 +237,30 @@ mod tests {
         let mut expected = scene();
         expected.objects[1].yaw_rad = back.objects[1].yaw_rad;
         assert_eq!(back, expected);
+    }
+
+    #[test]
+    fn a_posterior_that_does_not_fit_together_is_told() {
+        let good = Posterior {
+            feature_names: vec!["a".into(), "b".into()],
+            map_weights: vec![0.5, 0.5],
+            n_chains: 2,
+            n_draws: 4,
+            draws: vec![0.5; 8],
+            ..Posterior::default()
+        };
+        assert_eq!(check_posterior(&good), Ok(()));
+        let told = |change: fn(&mut Posterior)| {
+            let mut posterior = good.clone();
+            change(&mut posterior);
+            check_posterior(&posterior).expect_err("it does not fit").to_string()
+        };
+        assert_eq!(told(|p| p.feature_names.clear()), "it has 0 features; 1 to 73 are supported");
+        assert_eq!(told(|p| p.map_weights.push(0.0)), "it has 2 features but 3 MAP weights");
+        assert_eq!(told(|p| p.n_chains = 3), "8 numbers are not 4 draws of 2 weights in 3 chains");
+        assert_eq!(told(|p| p.n_chains = 0), "8 numbers are not 4 draws of 2 weights in 0 chains");
+        assert_eq!(told(|p| p.n_draws = 1 << 30), "8 numbers are not 1073741824 draws of 2 weights in 2 chains");
+        assert_eq!(told(|p| p.draws[3] = f32::NAN), "it holds weights that are not finite");
     }
 
     #[test]

@@ -1,0 +1,181 @@
+//! What is planned when, that nothing moves before its time, and that a plan is a function of what it names.
+
+use apprentice_msgs::builtin_interfaces::Time;
+use apprentice_msgs::msg::{LessonStatus, PlacementPlan, PlacementQuery, Posterior, TableScene};
+use apprentice_msgs::sensor_msgs::JointState;
+use apprentice_msgs::to_cdr;
+use bus::testing::check_parameters;
+use exchange::scene_to_message;
+use placement_planner::{Event, Output, PlacementPlanner, Request, Settings};
+use scene::{Object, Point, Rbf, Scene, Shape};
+
+const URDF: &str = include_str!("../../../config/urdf/table_arm.urdf");
+
+fn object(id: &str, x: f64, y: f64, radius_m: f64) -> Object {
+    Object {
+        id: id.into(),
+        label: id.into(),
+        shape: Shape::Cylinder { radius_m, height_m: 0.1 },
+        position_m: Point::new(x, y),
+        yaw_rad: 0.0,
+        supports: false,
+    }
+}
+
+fn table() -> Scene {
+    Scene {
+        id: "task".into(),
+        frame: "table".into(),
+        width_m: 1.0,
+        depth_m: 1.0,
+        objects: vec![object("cup", 0.2, 0.25, 0.05)],
+        target: Object { shape: Shape::Cylinder { radius_m: 0.04, height_m: 0.2 }, ..object("vase", 0.0, 0.0, 0.04) },
+    }
+}
+
+fn scene() -> TableScene {
+    scene_to_message(&table(), Time::default())
+}
+
+/// All draws want the middle.
+fn posterior(revision: u64) -> Posterior {
+    let weights = |k: usize| if k == 5 { 1.0 } else { 0.0 };
+    Posterior {
+        revision,
+        feature_names: Rbf::names(&table()),
+        n_chains: 4,
+        n_draws: 8,
+        draws: (0..80).map(|i| weights(i % 10) as f32).collect(),
+        map_weights: (0..10).map(weights).collect(),
+        ..Posterior::default()
+    }
+}
+
+fn query(id: &str, revision: u64) -> PlacementQuery {
+    PlacementQuery { id: id.into(), revision, scene: scene(), ..PlacementQuery::default() }
+}
+
+fn lesson(state: u8, revision: u64) -> Event {
+    Event::Lesson(LessonStatus { state, revision, ..LessonStatus::default() })
+}
+
+fn joints() -> JointState {
+    let names = ["shoulder_yaw", "shoulder_pitch", "elbow", "forearm_roll", "wrist_pitch", "wrist_roll", "finger_left"];
+    JointState {
+        name: names.map(String::from).to_vec(),
+        position: vec![0.0, -0.6, 2.2, 0.0, 1.54, 0.0, 0.05],
+        ..JointState::default()
+    }
+}
+
+fn step(node: &mut PlacementPlanner, event: Event) -> Vec<Output> {
+    node.step(Time::default(), event)
+}
+
+/// A planner with robot and joints.
+fn ready() -> PlacementPlanner {
+    let mut node = PlacementPlanner::new(Settings::default());
+    assert!(step(&mut node, Event::Joints(joints())).is_empty());
+    assert!(step(&mut node, Event::RobotDescription(URDF.into())).is_empty());
+    node
+}
+
+fn only_plan(outputs: &[Output]) -> PlacementPlan {
+    match outputs {
+        [Output::Plan(plan)] => (**plan).clone(),
+        other => panic!("a plan was expected, got {other:?}"),
+    }
+}
+
+#[test]
+fn parameters_are_documented() {
+    check_parameters::<Settings>();
+}
+
+#[test]
+fn the_guess_is_for_the_open_question_and_the_plan_for_the_table() {
+    let mut node = ready();
+    assert!(step(&mut node, Event::Scene(Box::new(scene()))).is_empty());
+    assert!(step(&mut node, Event::Query(Box::new(query("q1", 1)))).is_empty(), "nothing is known yet");
+    let outputs = step(&mut node, Event::Posterior(Box::new(posterior(1))));
+    let [Output::Guess(guess), Output::Plan(plan)] = outputs.as_slice() else { panic!("{outputs:?}") };
+    assert_eq!((guess.query_id.as_str(), plan.query_id.as_str()), ("q1", ""));
+    assert_eq!((plan.outcome, plan.inside_bound), (PlacementPlan::PLANNED, false), "{}", plan.reason);
+    assert!((plan.map_placement.x - 0.5).abs() < 1e-6 && (plan.map_placement.y - 0.5).abs() < 1e-6);
+    assert!(plan.robust_cvar_m < 1e-6 && !plan.trajectory.points.is_empty());
+    assert_eq!((plan.reward_map.len(), plan.cell_state.len()), (1024, 1024));
+    assert!(step(&mut node, Event::Query(Box::new(query("q0", 0)))).is_empty(), "of another revision");
+    let again = step(&mut node, Event::Republish);
+    assert!(matches!(again.as_slice(), [Output::Plan(p)] if to_cdr(&**p) == to_cdr(&**plan)));
+}
+
+#[test]
+fn nothing_moves_before_the_lesson_is_taught_and_then_once() {
+    let mut node = ready();
+    step(&mut node, Event::Scene(Box::new(scene())));
+    assert!(!only_plan(&step(&mut node, Event::Posterior(Box::new(posterior(3))))).inside_bound);
+    assert!(step(&mut node, lesson(LessonStatus::ASKING, 3)).is_empty());
+    let other = step(&mut node, lesson(LessonStatus::TAUGHT, 2));
+    assert!(!only_plan(&other).inside_bound, "taught is of another revision");
+    let outputs = step(&mut node, lesson(LessonStatus::TAUGHT, 3));
+    let [Output::Plan(plan), Output::Trajectory(motion)] = outputs.as_slice() else { panic!("{outputs:?}") };
+    assert!(plan.inside_bound);
+    assert_eq!(motion, &plan.trajectory);
+    let mut moved = scene();
+    moved.objects[0].pose.position.x = 0.8;
+    assert!(only_plan(&step(&mut node, Event::Scene(Box::new(moved)))).inside_bound, "planned anew, not moved again");
+
+    let mut still = PlacementPlanner::new(Settings { execute: false, ..Settings::default() });
+    step(&mut still, Event::RobotDescription(URDF.into()));
+    step(&mut still, Event::Scene(Box::new(scene())));
+    step(&mut still, lesson(LessonStatus::TAUGHT, 3));
+    assert!(only_plan(&step(&mut still, Event::Posterior(Box::new(posterior(3))))).inside_bound);
+}
+
+#[test]
+fn without_a_robot_placements_stand_and_nothing_moves() {
+    let mut node = PlacementPlanner::new(Settings::default());
+    step(&mut node, Event::Scene(Box::new(scene())));
+    step(&mut node, lesson(LessonStatus::TAUGHT, 1));
+    let plan = only_plan(&step(&mut node, Event::Posterior(Box::new(posterior(1)))));
+    assert_eq!((plan.outcome, plan.robot_hash.as_str()), (PlacementPlan::NO_ROBOT, ""));
+    assert!((plan.robust_placement.x - 0.5).abs() < 1e-6 && plan.trajectory.points.is_empty());
+}
+
+#[test]
+fn a_plan_is_a_function_of_what_it_names() {
+    let mut node = ready();
+    step(&mut node, Event::Scene(Box::new(scene())));
+    let plan = only_plan(&step(&mut node, Event::Posterior(Box::new(posterior(1)))));
+    let mut other = PlacementPlanner::new(Settings { threads: 1, ..Settings::default() });
+    other.set_robot(URDF).expect("the robot is right");
+    let request = Request {
+        posterior: &posterior(1),
+        query_id: &plan.query_id,
+        scene: &plan.scene,
+        start: &plan.start,
+        inside_bound: plan.inside_bound,
+    };
+    assert_eq!(to_cdr(&other.plan(&request).expect("it was planned before")), to_cdr(&plan));
+}
+
+#[test]
+fn bad_input_is_told_once_and_survived() {
+    let mut node = ready();
+    let warned = |outputs: Vec<Output>| match outputs.as_slice() {
+        [Output::Warn(text)] => text.clone(),
+        other => panic!("a warning was expected, got {other:?}"),
+    };
+    assert!(warned(step(&mut node, Event::RobotDescription("<robot".into()))).contains("robot description is ignored"));
+    assert!(step(&mut node, Event::RobotDescription("<robot".into())).is_empty());
+    let lost = JointState { position: vec![f64::NAN; 7], ..joints() };
+    assert!(warned(step(&mut node, Event::Joints(lost.clone()))).contains("'shoulder_yaw' is at NaN"));
+    assert!(step(&mut node, Event::Joints(lost)).is_empty());
+    let broken = Posterior { draws: vec![f32::NAN; 80], ..posterior(1) };
+    assert!(warned(step(&mut node, Event::Posterior(Box::new(broken)))).contains("not finite"));
+    let mut nan = scene();
+    nan.objects[0].pose.position.x = f64::NAN;
+    assert!(step(&mut node, Event::Scene(Box::new(nan))).is_empty(), "nothing is planned yet");
+    assert!(warned(step(&mut node, Event::Posterior(Box::new(posterior(1))))).contains("no plan for scene 'task'"));
+    assert_eq!(only_plan(&step(&mut node, Event::Scene(Box::new(scene())))).outcome, PlacementPlan::PLANNED);
+}
