@@ -127,6 +127,7 @@ class Posterior(IdlStruct, typename="apprentice_msgs::msg::dds_::Posterior_"):
     n_demonstrations: uint64 = 0
     n_answers: uint64 = 0
     stopped: bool = False
+    task: TableScene = field(default_factory=TableScene)
     scene: TableScene = field(default_factory=TableScene)
     outcome: uint8 = 0
     reason: str = ""

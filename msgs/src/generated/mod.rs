@@ -328,7 +328,8 @@ string evidence_hash             # SHA-256 over the active demonstrations, hex
 uint64 n_demonstrations          # active ones
 uint64 n_answers                 # questions answered or skipped so far, taken back or not
 bool stopped                     # the person said that nothing is acceptable, and has not taken it back
-TableScene scene                 # of the newest active demonstration, else of the task
+TableScene task                  # the table that the lesson is about; names the weights
+TableScene scene                 # of the newest active demonstration, else the task
 uint8 outcome
 string reason
 string[] feature_names           # one per weight: object ids, then the fixed centres

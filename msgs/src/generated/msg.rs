@@ -403,7 +403,9 @@ pub struct Posterior {
     pub n_answers: u64,
     /// the person said that nothing is acceptable, and has not taken it back (`bool`)
     pub stopped: bool,
-    /// of the newest active demonstration, else of the task (`TableScene`)
+    /// the table that the lesson is about; names the weights (`TableScene`)
+    pub task: super::msg::TableScene,
+    /// of the newest active demonstration, else the task (`TableScene`)
     pub scene: super::msg::TableScene,
     /// (`uint8`)
     pub outcome: u8,

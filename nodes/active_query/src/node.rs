@@ -74,15 +74,20 @@ impl ActiveQuery {
             Ok(scene) => scene,
             Err(error) => return vec![Output::Warn(format!("posterior {} is ignored: {error}", posterior.revision))],
         };
+        let task = match scene_from_message(&posterior.task) {
+            Ok(scene) => scene,
+            Err(error) => return vec![Output::Warn(format!("posterior {} is ignored: {error}", posterior.revision))],
+        };
+        // The table that the lesson is about comes last: it is judged with the others, and asked about when they are not.
         let scenes = if posterior.revision == 0 {
-            vec![base.clone()]
+            vec![task]
         } else {
             let n = usize::try_from(self.settings.n_candidates).unwrap_or(1);
             let seed = self.settings.seed.unsigned_abs();
             let imagined = candidates(&base, n, seed, posterior.revision, |scene| {
                 favourite_is_free(scene, &posterior.map_weights)
             });
-            if imagined.is_empty() { vec![base.clone()] } else { imagined }
+            imagined.into_iter().chain([task]).collect()
         };
         let stamp = posterior.header.stamp;
         let candidates = Candidates {
@@ -126,7 +131,7 @@ impl ActiveQuery {
         let mut query = None;
         // Without a demonstration there is nothing the person has agreed to, whatever the prior says.
         let choice =
-            if round.posterior.n_demonstrations == 0 { ask_first(&judged) } else { choose(&judged, epsilon_m) };
+            if round.posterior.n_demonstrations == 0 { ask_first(&judged) } else { next(&judged, epsilon_m) };
         match choice {
             _ if round.posterior.stopped => {
                 lesson.state = LessonStatus::STOPPED;
@@ -169,11 +174,12 @@ impl ActiveQuery {
     fn ask(&self, round: &Round, bounds: &PerformanceBounds, index: usize) -> Box<PlacementQuery> {
         let bound = &bounds.bounds[index];
         let posterior = &round.posterior;
-        let question = format!(
-            "Where does the {} belong {}?",
-            round.base.target.label,
+        let place = if index + 1 == round.scenes.len() {
+            "on the table as it is".to_owned()
+        } else {
             words::difference(&round.base, &round.scenes[index])
-        );
+        };
+        let question = format!("Where does the {} belong {place}?", round.base.target.label);
         Box::new(PlacementQuery {
             header: posterior.header.clone(),
             id: query_id(self.settings.seed, posterior),
@@ -221,6 +227,16 @@ fn favourite_is_free(scene: &Scene, map_weights: &[f64]) -> bool {
     let field = Field::new(&rbf, &Grid::midpoints(FAVOURITE_SIDE), Some(&clear));
     let favourite = best_placement(&clear, &rbf, &field, map_weights, &mut Vec::new());
     favourite.is_none_or(|favourite| scene.occupied().is_free(scene.metres(favourite.at)))
+}
+
+/// What to do next: an imagined table is asked about while one is worth it, then the table of the task, the last one.
+/// Imagined tables are new at every revision, so a person who skips a question is asked another.
+fn next(judged: &[Judged], epsilon_m: f64) -> Choice {
+    let imagined = &judged[..judged.len().saturating_sub(1)];
+    match choose(imagined, epsilon_m) {
+        Choice::Ask(index) => Choice::Ask(index),
+        Choice::Taught { .. } | Choice::Nothing => choose(judged, epsilon_m),
+    }
 }
 
 /// The first candidate on which the target has a place.

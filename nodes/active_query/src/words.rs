@@ -7,7 +7,7 @@ use scene::Scene;
 pub(crate) fn difference(from: &Scene, to: &Scene) -> String {
     let moved = from.objects.iter().zip(&to.objects).find(|(a, b)| a.position_m != b.position_m);
     match moved {
-        None => "on the table as it is".into(),
+        None => "on the same table".into(),
         Some((_, object)) => {
             format!("with the {} at ({:.2}, {:.2}) m", object.label, object.position_m.x, object.position_m.y)
         }
@@ -21,7 +21,7 @@ pub(crate) fn why(bound: &PlacementBound, bounds: &PerformanceBounds, n_demonstr
     }
     let of = bounds.bounds.len();
     if bound.outcome == PlacementBound::BOUND {
-        let tables = if of == 1 { String::new() } else { format!(", the most of {of} tables I imagined") };
+        let tables = if of == 1 { String::new() } else { format!(", the most of {of} tables I looked at") };
         format!(
             "Here I could still be {:.1} cm off ({:.0} % sure that it is no more for {:.0} in 100 of the rewards that fit){tables}.",
             100.0 * bound.bound_m,

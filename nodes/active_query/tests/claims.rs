@@ -25,15 +25,20 @@ fn posterior(revision: u64, n_demonstrations: u64) -> Posterior {
         n_demonstrations,
         n_answers: revision,
         evidence_hash: format!("hash {n_demonstrations}"),
-        scene: TableScene {
-            id: "task".into(),
-            width_m: 1.0,
-            depth_m: 1.0,
-            objects: vec![object("cup", 0.25, 0.25), object("plate", 0.75, 0.75)],
-            target: object("vase", 0.0, 0.0),
-            ..TableScene::default()
-        },
+        task: task(),
+        scene: task(),
         ..Posterior::default()
+    }
+}
+
+fn task() -> TableScene {
+    TableScene {
+        id: "task".into(),
+        width_m: 1.0,
+        depth_m: 1.0,
+        objects: vec![object("cup", 0.25, 0.25), object("plate", 0.75, 0.75)],
+        target: object("vase", 0.0, 0.0),
+        ..TableScene::default()
     }
 }
 
@@ -96,8 +101,9 @@ fn the_first_question_is_about_the_table_as_it_is_however_small_the_bound() {
 fn the_table_with_the_largest_bound_is_asked_about() {
     let mut node = ActiveQuery::new(settings());
     let asked = candidates(&mut node, posterior(1, 1));
-    assert_eq!(asked.scenes.len(), 3);
-    let (query, lesson) = verdict(&mut node, bounds(1, &[0.2, 0.4, 0.3]));
+    assert_eq!(asked.scenes.len(), 4, "three imagined tables and the one that the lesson is about");
+    assert_eq!(asked.scenes[3].objects, task().objects);
+    let (query, lesson) = verdict(&mut node, bounds(1, &[0.2, 0.4, 0.3, 0.5]));
     let query = query.expect("the bound is above ε");
     assert_eq!(query.scene, asked.scenes[1]);
     assert_eq!(query.bound_m, 0.4);
@@ -124,13 +130,23 @@ fn the_lesson_ends_below_epsilon_at_a_stop_and_after_too_many_questions() {
 }
 
 #[test]
+fn the_table_of_the_lesson_is_asked_about_when_no_imagined_one_is_left() {
+    let mut node = ActiveQuery::new(settings());
+    candidates(&mut node, posterior(1, 1));
+    let (query, lesson) = verdict(&mut node, bounds(1, &[0.05, 0.05, 0.05, 0.3]));
+    let query = query.expect("the table of the lesson is above ε");
+    assert_eq!((query.scene.objects, lesson.state), (task().objects, LessonStatus::ASKING));
+    assert!(query.reason.starts_with("Where does the vase belong on the table as it is?"), "{}", query.reason);
+}
+
+#[test]
 fn bounds_of_another_revision_or_of_other_tables_ask_nothing() {
     let mut node = ActiveQuery::new(settings());
     candidates(&mut node, posterior(2, 2));
-    assert!(step(&mut node, Event::Bounds(Box::new(bounds(1, &[0.2; 3])))).is_empty());
+    assert!(step(&mut node, Event::Bounds(Box::new(bounds(1, &[0.2; 4])))).is_empty());
     let wrong = step(&mut node, Event::Bounds(Box::new(bounds(2, &[0.2; 2]))));
-    assert!(matches!(wrong.as_slice(), [Output::Warn(text)] if text.contains("judge 2 tables, 3 were asked for")));
-    assert!(verdict(&mut node, bounds(2, &[0.2; 3])).0.is_some());
+    assert!(matches!(wrong.as_slice(), [Output::Warn(text)] if text.contains("judge 2 tables, 4 were asked for")));
+    assert!(verdict(&mut node, bounds(2, &[0.2; 4])).0.is_some());
 }
 
 #[test]
@@ -139,12 +155,12 @@ fn what_is_pending_is_sent_again_unchanged() {
     assert!(step(&mut node, Event::Republish).is_empty());
     let asked = candidates(&mut node, posterior(1, 1));
     assert!(matches!(step(&mut node, Event::Republish).as_slice(), [Output::Candidates(again)] if *again == asked));
-    let (query, lesson) = verdict(&mut node, bounds(1, &[0.2; 3]));
+    let (query, lesson) = verdict(&mut node, bounds(1, &[0.2; 4]));
     let again = step(&mut node, Event::Republish);
     let [Output::Query(q), Output::Lesson(l)] = again.as_slice() else { panic!("{again:?}") };
     assert_eq!(**q, query.expect("the bound is above ε"));
     assert_eq!(l.query_id, lesson.query_id);
-    assert!(step(&mut node, Event::Bounds(Box::new(bounds(1, &[0.05; 3])))).is_empty(), "a repetition changes nothing");
+    assert!(step(&mut node, Event::Bounds(Box::new(bounds(1, &[0.05; 4])))).is_empty(), "a repetition changes nothing");
 }
 
 #[test]
@@ -156,7 +172,7 @@ fn a_question_depends_on_the_evidence_alone() {
             verdict(&mut node, bounds(0, &[0.3]));
         }
         candidates(&mut node, posterior(1, 1));
-        verdict(&mut node, bounds(1, &[0.2; 3])).0
+        verdict(&mut node, bounds(1, &[0.2; 4])).0
     };
     assert_eq!(ask(false), ask(true));
 }
@@ -168,5 +184,5 @@ fn a_posterior_with_a_broken_scene_is_told_and_survived() {
     broken.scene.objects[0].pose.position.x = f64::NAN;
     let outputs = step(&mut node, Event::Posterior(Box::new(broken)));
     assert!(matches!(outputs.as_slice(), [Output::Warn(text)] if text.contains("'cup'")), "{outputs:?}");
-    assert_eq!(candidates(&mut node, posterior(1, 1)).scenes.len(), 3);
+    assert_eq!(candidates(&mut node, posterior(1, 1)).scenes.len(), 4);
 }

@@ -165,7 +165,8 @@ impl PerformanceBoundsNode {
     fn reason(&self, posterior: &Posterior, outcome: u8, worst: &PlacementBound, n_scenes: usize) -> String {
         let sure = 100.0 * (1.0 - self.settings.delta);
         let share = 100.0 * self.settings.alpha;
-        let tables = if n_scenes == 1 { "this table".into() } else { format!("each of {n_scenes} imagined tables") };
+        let tables =
+            if n_scenes == 1 { "this table".into() } else { format!("each of {n_scenes} tables, this one among them") };
         match outcome {
             PlacementBound::BOUND => format!(
                 "{sure:.0} % sure: {share:.0} in 100 of the rewards that fit the answers put the target within {:.1} cm of where I would, on {tables}",

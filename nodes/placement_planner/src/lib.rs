@@ -6,6 +6,6 @@ mod node;
 mod run;
 mod settings;
 
-pub use node::{Event, Output, PlacementPlanner, Request};
+pub use node::{Event, Output, PlacementPlanner, Request, is_task};
 pub use run::run;
 pub use settings::Settings;

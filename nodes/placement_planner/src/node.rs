@@ -2,13 +2,18 @@
 
 use crate::{Settings, convert};
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::msg::{LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, TableScene};
+use apprentice_msgs::msg::{
+    LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, SceneObject, TableScene,
+};
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
 use exchange::{check_posterior, scene_from_message};
 use placement::{LossBatch, MAP_SIDE, ManipulatorError, Planner};
 use scene::{Rbf, Scene};
 use sha2::{Digest, Sha256};
+
+/// Perception is this exact: an object that moved less stands where it stood, metres.
+const SAME_PLACE_M: f64 = 0.01;
 
 /// What reaches the node.
 #[derive(Debug, Clone)]
@@ -200,8 +205,14 @@ impl PlacementPlanner {
     fn joints(&mut self, message: &JointState) -> Vec<Output> {
         match convert::joints(message) {
             Ok(joints) => {
+                let first = self.joints.is_empty();
                 self.joints = joints;
                 self.joints_wrong = false;
+                if first && !self.joints.is_empty() {
+                    // What was planned from an unknown position is planned anew.
+                    (self.guess, self.plan) = (None, None);
+                    return self.update();
+                }
                 Vec::new()
             }
             Err(_) if self.joints_wrong => Vec::new(),
@@ -240,7 +251,7 @@ impl PlacementPlanner {
         self.query = query;
         let scene = self.scene.take();
         if let Some(scene) = scene.as_ref().filter(|_| self.plan.is_none()) {
-            let inside_bound = self.taught == Some(posterior.revision);
+            let inside_bound = self.taught == Some(posterior.revision) && is_task(scene, &posterior);
             let request = Request { posterior: &posterior, query_id: "", scene, start: &start, inside_bound };
             match self.plan(&request) {
                 Ok(plan) => {
@@ -257,15 +268,30 @@ impl PlacementPlanner {
         outputs
     }
 
-    /// Nothing moves unless the lesson is taught, and then once per revision.
+    /// Nothing moves unless the lesson is taught and the arm's position is known, and then once per revision.
     fn execute(&mut self, plan: PlanMessage) -> Option<Output> {
-        let may = self.settings.execute && plan.inside_bound && plan.outcome == PlanMessage::PLANNED;
+        let known = plan.trajectory.joint_names.iter().all(|name| plan.start.name.contains(name));
+        let may = self.settings.execute && plan.inside_bound && known && plan.outcome == PlanMessage::PLANNED;
         if !may || self.moved == Some(plan.revision) {
             return None;
         }
         self.moved = Some(plan.revision);
         Some(Output::Trajectory(plan.trajectory))
     }
+}
+
+/// Whether a table is the one that the lesson, and so the bound, is about: the same things within [`SAME_PLACE_M`].
+pub fn is_task(scene: &TableScene, posterior: &Posterior) -> bool {
+    let task = &posterior.task;
+    let near = |a: &SceneObject, b: &SceneObject| {
+        let (p, q) = (&a.pose.position, &b.pose.position);
+        a.id == b.id && a.shape == b.shape && (p.x - q.x).hypot(p.y - q.y) <= SAME_PLACE_M
+    };
+    scene.objects.len() == task.objects.len()
+        && scene.objects.iter().zip(&task.objects).all(|(a, b)| near(a, b))
+        && scene.target.id == task.target.id
+        && scene.width_m == task.width_m
+        && scene.depth_m == task.depth_m
 }
 
 /// Whether two messages show the same table; perception stamps each anew.

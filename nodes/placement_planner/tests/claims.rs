@@ -42,6 +42,7 @@ fn posterior(revision: u64) -> Posterior {
     let weights = |k: usize| if k == 5 { 1.0 } else { 0.0 };
     Posterior {
         revision,
+        task: scene(),
         feature_names: Rbf::names(&table()),
         n_chains: 4,
         n_draws: 8,
@@ -122,14 +123,31 @@ fn nothing_moves_before_the_lesson_is_taught_and_then_once() {
     assert!(plan.inside_bound);
     assert_eq!(motion, &plan.trajectory);
     let mut moved = scene();
+    moved.objects[0].pose.position.x += 0.005;
+    assert!(
+        only_plan(&step(&mut node, Event::Scene(Box::new(moved.clone())))).inside_bound,
+        "planned anew, not moved again"
+    );
     moved.objects[0].pose.position.x = 0.8;
-    assert!(only_plan(&step(&mut node, Event::Scene(Box::new(moved)))).inside_bound, "planned anew, not moved again");
+    assert!(
+        !only_plan(&step(&mut node, Event::Scene(Box::new(moved)))).inside_bound,
+        "the bound is not about this table"
+    );
 
     let mut still = PlacementPlanner::new(Settings { execute: false, ..Settings::default() });
+    step(&mut still, Event::Joints(joints()));
     step(&mut still, Event::RobotDescription(URDF.into()));
     step(&mut still, Event::Scene(Box::new(scene())));
     step(&mut still, lesson(LessonStatus::TAUGHT, 3));
     assert!(only_plan(&step(&mut still, Event::Posterior(Box::new(posterior(3))))).inside_bound);
+
+    let mut lost = PlacementPlanner::new(Settings::default());
+    step(&mut lost, Event::RobotDescription(URDF.into()));
+    step(&mut lost, Event::Scene(Box::new(scene())));
+    step(&mut lost, lesson(LessonStatus::TAUGHT, 3));
+    only_plan(&step(&mut lost, Event::Posterior(Box::new(posterior(3)))));
+    let found = step(&mut lost, Event::Joints(joints()));
+    assert!(matches!(found.as_slice(), [Output::Plan(_), Output::Trajectory(_)]), "an arm that is found may move");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{Candidates, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, Posterior};
 use bus::NodeSettings;
 use performance_bounds::PerformanceBoundsNode;
-use placement_planner::{PlacementPlanner, Request};
+use placement_planner::{PlacementPlanner, Request, is_task};
 use std::collections::BTreeMap;
 
 /// What the nodes say to one revision.
@@ -117,7 +117,9 @@ impl Lesson {
             query_id: &recorded.query_id,
             scene: &recorded.scene,
             start: &recorded.start,
-            inside_bound: recorded.query_id.is_empty() && round.lesson.state == LessonStatus::TAUGHT,
+            inside_bound: recorded.query_id.is_empty()
+                && round.lesson.state == LessonStatus::TAUGHT
+                && is_task(&recorded.scene, &round.posterior),
         };
         planner.plan(&request).map_err(wrong)
     }

@@ -330,6 +330,7 @@ impl RewardPosterior {
             n_demonstrations: n as u64,
             n_answers: self.evidence.n_answers(),
             stopped: self.evidence.stopped(),
+            task: self.evidence.task().map(|(message, _)| message.clone()).unwrap_or_default(),
             scene,
             outcome,
             reason,
