@@ -147,7 +147,9 @@ fn a_bag_that_cannot_be_played_is_one_clear_error_and_exit_code_2() {
     std::fs::write(&text, "no bag at all").expect("the folder is writable");
     let (bag, _) = write_bag(root.path());
     let (missing, good) = (root.path().join("missing"), bag.display().to_string());
-    let cases: [(&Path, &[(&str, &str)], &str); 4] = [
+    /// What to play, with which other parameters, and words of the error.
+    type Case<'a> = (&'a Path, &'a [(&'a str, &'a str)], &'a str);
+    let cases: [Case<'_>; 4] = [
         (&missing, &[], "there is no bag at"),
         (&text, &[], "not an MCAP file"),
         (Path::new(""), &[], "`bag` is empty"),
