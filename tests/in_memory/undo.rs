@@ -35,9 +35,14 @@ fn an_answer_taken_back_over_the_graph_leaves_the_posterior_that_would_have_been
 
     let mut never_said = Lesson::new("never_said");
     never_said.start_core();
-    assert_eq!(to_cdr(&before), to_cdr(&answer(&mut never_said)), "the same answer gives the same bounds");
+    assert!(to_cdr(&before) == to_cdr(&answer(&mut never_said)), "the same answer gives the same bounds");
     never_said.show(&volunteered("c", 0.55, 0.4));
-    assert_eq!(bits(&undone), bits(&never_said.posterior(2)));
+    assert!(
+        bits(&undone) == bits(&never_said.posterior(2)),
+        "{} and {}",
+        undone.evidence_hash,
+        never_said.posterior(2).evidence_hash
+    );
     assert_eq!(undone.n_demonstrations, 2);
     let log = taken_back.evidence(4);
     assert!(log.records.iter().any(|record| record.demonstration.iter().any(|d| d.id == "b")), "nothing is deleted");
@@ -50,7 +55,7 @@ fn taking_everything_back_leaves_the_prior() {
     take(&mut node, Event::Demonstration(Box::new(volunteered("a", 0.5, 0.45))));
     let (receipt, undone) = take(&mut node, Event::Retraction(Box::new(retraction("undo", "a"))));
     assert_eq!(receipt.map(|r| r.outcome), Some(EvidenceReceipt::ACCEPTED));
-    assert_eq!(bits(&undone.expect("a posterior of the retraction")), bits(&prior));
+    assert!(bits(&undone.expect("a posterior of the retraction")) == bits(&prior));
 }
 
 /// One thing a person does.
@@ -145,6 +150,6 @@ proptest! {
         for shown in in_force {
             posterior = take(&mut fresh, Event::Demonstration(Box::new(shown))).1.expect("it was accepted before");
         }
-        assert_eq!(bits(&lived), bits(&posterior));
+        assert!(bits(&lived) == bits(&posterior), "{} and {}", lived.evidence_hash, posterior.evidence_hash);
     }
 }

@@ -130,8 +130,7 @@ impl ActiveQuery {
         };
         let mut query = None;
         // Without a demonstration there is nothing the person has agreed to, whatever the prior says.
-        let choice =
-            if round.posterior.n_demonstrations == 0 { ask_first(&judged) } else { next(&judged, epsilon_m) };
+        let choice = if round.posterior.n_demonstrations == 0 { ask_first(&judged) } else { next(&judged, epsilon_m) };
         match choice {
             _ if round.posterior.stopped => {
                 lesson.state = LessonStatus::STOPPED;

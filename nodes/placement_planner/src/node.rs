@@ -280,7 +280,7 @@ impl PlacementPlanner {
     }
 }
 
-/// Whether a table is the one that the lesson, and so the bound, is about: the same things within [`SAME_PLACE_M`].
+/// Whether a table is the one that the lesson, and so the bound, is about: the same things, each within 1 cm.
 pub fn is_task(scene: &TableScene, posterior: &Posterior) -> bool {
     let task = &posterior.task;
     let near = |a: &SceneObject, b: &SceneObject| {

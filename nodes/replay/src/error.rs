@@ -15,7 +15,7 @@ pub enum ReplayError {
     #[error("the bag holds several sessions, in the namespaces {0:?}; choose one with --namespace")]
     SeveralSessions(Vec<String>),
     /// A message on a topic of ours that does not decode.
-    #[error("message {index} of topic '{topic}' is not a {type_name}: {source}")]
+    #[error("message {index} of topic '{topic}' cannot be read as {type_name}: {source}")]
     Malformed {
         /// Topic.
         topic: String,
