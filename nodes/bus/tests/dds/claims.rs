@@ -10,7 +10,7 @@ use bus::{Durability, Next, Qos, QosProfile, Reliability};
 
 use crate::{
     Peer, ROLE,
-    common::{Event, open, text, until, wait_for},
+    common::{Event, open, text, until, until_gone, wait_for},
     this_program,
 };
 
@@ -205,7 +205,7 @@ pub fn sigterm() {
     assert!(sent.success());
     let status = peer.0.wait().expect("the peer ends");
     assert_eq!(status.code(), Some(0));
-    until("the peer has left the graph", || ping.subscriptions() == 0);
+    until_gone("the peer has left the graph", || ping.subscriptions() == 0);
 }
 
 pub fn orphan() {
@@ -222,7 +222,7 @@ pub fn orphan() {
     until("the peer listens", || ping.subscriptions() == 1);
     parent.kill().expect("the shell can be killed");
     let output = parent.wait_with_output().expect("the shell ends, and the peer with it");
-    until("the peer has left the graph", || ping.subscriptions() == 0);
+    until_gone("the peer has left the graph", || ping.subscriptions() == 0);
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(errors.contains("[WARN] [apprentice.peer]: the process"), "{errors}");
 }

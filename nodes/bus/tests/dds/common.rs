@@ -1,6 +1,6 @@
 //! What the claims share: settings, events, and waiting.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use apprentice_msgs::{rcl_interfaces::Log, std_msgs::String as Text};
 use bus::{Arguments, Bus, Graph, Next, NodeSettings, ParameterSpec, Range, RawMessage};
@@ -67,9 +67,19 @@ pub fn wait_for<T>(bus: &mut Bus<Event>, what: &str, mut pick: impl FnMut(Event)
 }
 
 /// Waits until something holds.
+pub fn until(what: &str, holds: impl FnMut() -> bool) {
+    until_within(PATIENCE, what, holds);
+}
+
+/// Waits until a node has left the graph. Its goodbye is one datagram that a busy machine may drop; then its lease of
+/// 50 s has to run out.
+pub fn until_gone(what: &str, holds: impl FnMut() -> bool) {
+    until_within(Duration::from_secs(90), what, holds);
+}
+
 #[expect(clippy::disallowed_methods, reason = "a test gives up some time")]
-pub fn until(what: &str, mut holds: impl FnMut() -> bool) {
-    let until = Instant::now() + PATIENCE;
+fn until_within(patience: Duration, what: &str, mut holds: impl FnMut() -> bool) {
+    let until = Instant::now() + patience;
     while !holds() {
         assert!(Instant::now() < until, "waited in vain until {what}");
         std::thread::sleep(std::time::Duration::from_millis(5));
