@@ -143,6 +143,12 @@ impl GraphView {
                     remotes.remove(&gid);
                 }
             }
+            // When the participant's own goodbye comes first, its endpoints are not lost one by one.
+            Event::ParticipantLost { id, .. } => {
+                for remotes in self.lock().matched.values_mut() {
+                    remotes.retain(|gid| !gid.starts_with(id.as_ref()));
+                }
+            }
             Event::ReaderDetected { reader } => self.check_types(&reader, false),
             Event::WriterDetected { writer } => self.check_types(&writer, true),
             Event::RemoteReaderQosIncompatible { local_writer, remote_reader, requested_qos, offered_qos } => {
