@@ -111,16 +111,26 @@ impl<E: Send + 'static> Bus<E> {
         if (profile.reliability, profile.durability) == (Reliability::Reliable, Durability::Volatile) {
             profile.depth = profile.depth.max(BURST_DEPTH);
         }
-        let counters = Arc::clone(&self.counters);
         let mut push = self.pusher(&name, &profile);
+        self.subscribe_decoded(&name, &profile, move |message| push(to_event(message)))
+    }
+
+    /// Hands every message of an absolute topic that can be decoded to `take`, and counts and reports the others.
+    fn subscribe_decoded<M: Message>(
+        &mut self,
+        name: &str,
+        profile: &QosProfile,
+        mut take: impl FnMut(M) + Send + 'static,
+    ) -> Result<(), BusError> {
+        let counters = Arc::clone(&self.counters);
         let mut malformed: u64 = 0;
-        let topic = name.clone();
+        let topic = name.to_owned();
         let guard = self.transport.subscribe(
-            &name,
+            name,
             M::TYPE,
-            &profile,
+            profile,
             Box::new(move |raw| match from_cdr::<M>(&raw.cdr) {
-                Ok(message) => push(to_event(message)),
+                Ok(message) => take(message),
                 Err(error) => {
                     counters.malformed.fetch_add(1, Ordering::Relaxed);
                     malformed += 1;

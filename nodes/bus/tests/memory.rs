@@ -245,6 +245,27 @@ fn simulated_time_drives_now_and_timers() {
 }
 
 #[test]
+fn a_malformed_clock_is_counted_and_time_stands() {
+    let graph = MemoryGraph::new();
+    let mut watcher = open(&graph, &["-r", "__node:=watcher"]);
+    watcher.subscribe("/diagnostics", Qos::Event, Event::Diagnostics).expect("a subscription");
+    let node = open(&graph, &["-p", "use_sim_time:=true"]);
+    let mut clock = Clock::default();
+    clock.clock.sec = 35;
+    graph.inject_raw("/clock", "rosgraph_msgs/msg/Clock", &apprentice_msgs::to_cdr(&clock));
+    assert_eq!(graph.inject_raw("/clock", "rosgraph_msgs/msg/Clock", &[0, 1, 0, 0, 7]), 1);
+    assert_eq!(node.now().sec, 35);
+    let told = (0..50).any(|_| match watcher.next_timeout(Duration::from_millis(200)) {
+        Next::Event(_, Event::Diagnostics(array)) => array.status.iter().any(|status| {
+            let counted = status.values.iter().any(|value| value.key == "malformed" && value.value == "1");
+            status.name == "apprentice/tested" && counted
+        }),
+        _ => false,
+    });
+    assert!(told, "the diagnostics do not count it");
+}
+
+#[test]
 fn timers_events_and_senders_meet_in_one_queue() {
     let graph = MemoryGraph::new();
     let mut node = open(&graph, &[]);

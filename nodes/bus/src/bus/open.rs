@@ -6,9 +6,7 @@ use std::sync::{
     mpsc::{Receiver, sync_channel},
 };
 
-use apprentice_msgs::{
-    Message, from_cdr, msg::NodeSettings as NodeSettingsMessage, rosgraph_msgs::Clock as ClockMessage,
-};
+use apprentice_msgs::{msg::NodeSettings as NodeSettingsMessage, rosgraph_msgs::Clock as ClockMessage};
 use log::LevelFilter;
 
 use crate::{
@@ -98,19 +96,11 @@ impl<E: Send + 'static> Bus<E> {
         let clock = self.clock.clone();
         let queue = Arc::clone(&self.queue);
         let topic = self.resolve("/clock")?;
-        let guard = self.transport.subscribe(
-            &topic,
-            ClockMessage::TYPE,
-            &QosProfile::new(Reliability::BestEffort, Durability::Volatile, 1),
-            Box::new(move |raw| {
-                if let Ok(message) = from_cdr::<ClockMessage>(&raw.cdr) {
-                    clock.set(&message.clock);
-                    queue.wake();
-                }
-            }),
-        )?;
-        self.guards.push(guard);
-        Ok(())
+        let profile = QosProfile::new(Reliability::BestEffort, Durability::Volatile, 1);
+        self.subscribe_decoded(&topic, &profile, move |message: ClockMessage| {
+            clock.set(&message.clock);
+            queue.wake();
+        })
     }
 
     /// Starts the thread that publishes heartbeat, diagnostics and log lines.
