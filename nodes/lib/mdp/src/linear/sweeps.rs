@@ -1,0 +1,250 @@
+//! Gauss–Seidel sweeps for x = b + W x, states downstream first, with a bound on the error.
+
+use crate::MdpError;
+
+/// Sweeps without a smaller change after which there is nothing to hope for.
+const PATIENCE: usize = 50;
+
+/// Relative error that solutions have at most: 1e-13, or what rounding leaves at a long horizon.
+pub(crate) fn precision(gamma: f64) -> f64 {
+    1e-13_f64.max(16.0 * f64::EPSILON / (1.0 - gamma))
+}
+
+/// W laid out for sweeps. Each state comes after the one it most probably leads to, as far as there are no cycles: what is
+/// known downstream reaches all states upstream in one sweep. Loops from a state to itself are solved for.
+#[derive(Debug, Clone)]
+pub(crate) struct Sweeps {
+    gamma: f64,
+    /// States in order.
+    states: Vec<u32>,
+    /// 1 / (1 − W_ss) for each state.
+    stay: Vec<f64>,
+    /// Where the entries of each state start, in order.
+    starts: Vec<u32>,
+    targets: Vec<u32>,
+    /// W_st / (1 − W_ss).
+    weights: Vec<f64>,
+}
+
+impl Sweeps {
+    /// W = `factor` times the weights that row(s) gives for each of n states, targets in any order; no row of W sums to more
+    /// than γ.
+    pub(crate) fn new<'a>(n: usize, gamma: f64, factor: f64, row: impl Fn(usize) -> (&'a [u32], &'a [f64])) -> Self {
+        let mut sweeps = Self {
+            gamma,
+            states: downstream_first(n, |state| most_probable(row(state))),
+            stay: vec![1.0; n],
+            starts: Vec::with_capacity(n + 1),
+            targets: Vec::new(),
+            weights: Vec::new(),
+        };
+        sweeps.starts.push(0);
+        for &state in &sweeps.states {
+            let (targets, weights) = row(state as usize);
+            let entries = || targets.iter().zip(weights);
+            let loops: f64 = entries().filter(|(target, _)| **target == state).map(|(_, weight)| factor * weight).sum();
+            let stay = 1.0 / (1.0 - loops);
+            sweeps.stay[state as usize] = stay;
+            for (&target, weight) in entries().filter(|(target, _)| **target != state) {
+                sweeps.targets.push(target);
+                sweeps.weights.push(factor * weight * stay);
+            }
+            sweeps.starts.push(sweeps.targets.len() as u32);
+        }
+        sweeps
+    }
+
+    #[inline]
+    fn row(&self, place: usize) -> impl Iterator<Item = (usize, &f64)> {
+        let range = self.starts[place] as usize..self.starts[place + 1] as usize;
+        self.targets[range.clone()].iter().map(|&target| target as usize).zip(&self.weights[range])
+    }
+
+    /// b in the order and scale that [`Sweeps::sweep`] needs: n × `width`.
+    pub(crate) fn prepared(&self, b: &[f64], width: usize) -> Vec<f64> {
+        let mut prepared = Vec::with_capacity(b.len());
+        for &state in &self.states {
+            let state = state as usize;
+            prepared.extend(b[state * width..][..width].iter().map(|b| b * self.stay[state]));
+        }
+        prepared
+    }
+
+    /// One sweep of n values. The largest change: times γ/(1 − γ) it bounds the error that is left.
+    pub(crate) fn sweep(&self, prepared: &[f64], x: &mut [f64]) -> f64 {
+        let mut change = 0.0_f64;
+        for (place, (&state, b)) in self.states.iter().zip(prepared).enumerate() {
+            let mut sum = *b;
+            for (target, weight) in self.row(place) {
+                sum += weight * x[target];
+            }
+            let x = &mut x[state as usize];
+            change = change.max((sum - *x).abs());
+            *x = sum;
+        }
+        change
+    }
+
+    /// One sweep of n × `width` values.
+    fn sweep_many(&self, prepared: &[f64], x: &mut [f64], sum: &mut [f64]) -> f64 {
+        let width = sum.len();
+        let mut change = 0.0_f64;
+        for (place, (&state, b)) in self.states.iter().zip(prepared.chunks_exact(width)).enumerate() {
+            sum.copy_from_slice(b);
+            for (target, weight) in self.row(place) {
+                for (sum, x) in sum.iter_mut().zip(&x[target * width..][..width]) {
+                    *sum += weight * x;
+                }
+            }
+            for (x, sum) in x[state as usize * width..][..width].iter_mut().zip(&*sum) {
+                change = change.max((sum - *x).abs());
+                *x = *sum;
+            }
+        }
+        change
+    }
+
+    /// Replaces b, n × `width`, by the solution to within [`precision`] of the largest possible one, max|b| / (1 − γ).
+    ///
+    /// # Errors
+    /// When sweeps stop helping before.
+    pub(crate) fn solve(&self, x: &mut [f64], width: usize) -> Result<(), MdpError> {
+        let scale = x.iter().fold(0.0_f64, |max, b| max.max(b.abs())) / (1.0 - self.gamma);
+        let prepared = self.prepared(x, width);
+        let wanted = precision(self.gamma);
+        let (mut least, mut since, mut sweeps) = (f64::INFINITY, 0, 0);
+        let mut sum = vec![0.0; width];
+        loop {
+            let change = if width == 1 { self.sweep(&prepared, x) } else { self.sweep_many(&prepared, x, &mut sum) };
+            sweeps += 1;
+            let error = self.gamma / (1.0 - self.gamma) * change;
+            if error <= wanted * scale {
+                return Ok(());
+            }
+            if change < least {
+                (least, since) = (change, 0);
+            } else {
+                since += 1;
+            }
+            if since > PATIENCE {
+                return Err(MdpError::NotConverged { got: error / scale, wanted, sweeps });
+            }
+        }
+    }
+
+    /// Replaces the visits that start in each state, of either sign, by all discounted visits, y = b + Wᵀ y: pushes
+    /// downstream what is left to come, upstream first. Absolute errors sum to at most [`precision`] of Σ|b| / (1 − γ).
+    pub(crate) fn visits(&self, b: &mut [f64]) {
+        let total: f64 = b.iter().map(|x| x.abs()).sum();
+        let negligible = precision(self.gamma) * total / b.len() as f64;
+        let mut left = b.to_vec();
+        b.fill(0.0);
+        // Each round leaves at most γ of what was left, so this ends; what is negligible in a state stays behind there.
+        let mut pushed = true;
+        while pushed {
+            pushed = false;
+            for (place, &state) in self.states.iter().enumerate().rev() {
+                let visits = left[state as usize];
+                if visits.abs() > negligible {
+                    pushed = true;
+                    left[state as usize] = 0.0;
+                    b[state as usize] += visits;
+                    for (target, weight) in self.row(place) {
+                        left[target] += visits * weight;
+                    }
+                }
+            }
+        }
+        b.iter_mut().zip(&self.stay).for_each(|(visits, stay)| *visits *= stay);
+    }
+}
+
+/// States by the number of most probable steps to where those end or meet themselves: states of the same number do not wait
+/// for each other.
+fn downstream_first(n: usize, next: impl Fn(usize) -> Option<usize>) -> Vec<u32> {
+    const UNSEEN: u32 = u32::MAX;
+    const ON_PATH: u32 = u32::MAX - 1;
+    let mut depths = vec![UNSEEN; n];
+    let mut path = Vec::new();
+    let mut deepest = 0;
+    for start in 0..n {
+        let mut state = start;
+        let mut depth = loop {
+            if depths[state] == ON_PATH {
+                break 0;
+            }
+            if depths[state] != UNSEEN {
+                break depths[state] + 1;
+            }
+            depths[state] = ON_PATH;
+            path.push(state);
+            match next(state) {
+                Some(next) => state = next,
+                None => break 0,
+            }
+        };
+        while let Some(state) = path.pop() {
+            depths[state] = depth;
+            deepest = deepest.max(depth as usize);
+            depth += 1;
+        }
+    }
+    let mut places = vec![0_u32; deepest + 2];
+    for &depth in &depths {
+        places[depth as usize + 1] += 1;
+    }
+    for depth in 0..=deepest {
+        places[depth + 1] += places[depth];
+    }
+    let mut order = vec![0; n];
+    for (state, &depth) in depths.iter().enumerate() {
+        let place = &mut places[depth as usize];
+        order[*place as usize] = state as u32;
+        *place += 1;
+    }
+    order
+}
+
+/// The target of largest weight.
+fn most_probable((targets, weights): (&[u32], &[f64])) -> Option<usize> {
+    let mut best = None;
+    let mut most = 0.0;
+    for (&target, &weight) in targets.iter().zip(weights) {
+        if weight > most {
+            (best, most) = (Some(target as usize), weight);
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Sweeps, downstream_first};
+
+    #[test]
+    fn a_path_is_known_from_its_end() {
+        // 3 → 1 → 0 → 2, which is the end; 4 and 5 lead to each other.
+        let next = [Some(2), Some(0), None, Some(1), Some(5), Some(4)];
+        let order = downstream_first(6, |state| next[state]);
+        let place = |state| order.iter().position(|s| *s == state).expect("every state has a place");
+        assert!(place(2) < place(0) && place(0) < place(1) && place(1) < place(3));
+        assert_eq!(order.len(), 6);
+    }
+
+    #[test]
+    fn one_sweep_solves_a_path_with_loops() {
+        // x_s = 1 + 0.3 x_s + 0.6 x_{s+1}, the last x = 1.
+        let n = 50;
+        let rows: Vec<(Vec<u32>, Vec<f64>)> =
+            (0..n).map(|s| if s + 1 < n { (vec![s, s + 1], vec![0.3, 0.6]) } else { (vec![], vec![]) }).collect();
+        let sweeps = Sweeps::new(n as usize, 0.9, 1.0, |s| (&rows[s].0[..], &rows[s].1[..]));
+        let mut x = vec![0.0; n as usize];
+        sweeps.sweep(&sweeps.prepared(&vec![1.0; n as usize], 1), &mut x);
+        assert!(sweeps.sweep(&sweeps.prepared(&vec![1.0; n as usize], 1), &mut x) < 1e-15);
+        let mut visits = vec![0.0; n as usize];
+        visits[0] = 1.0;
+        sweeps.visits(&mut visits);
+        // Σ visits is the value of a reward of 1 everywhere.
+        assert!((visits.iter().sum::<f64>() - x[0]).abs() < 1e-12);
+    }
+}

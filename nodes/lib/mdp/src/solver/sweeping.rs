@@ -1,0 +1,109 @@
+//! Modified policy iteration: greedy choices and Gauss–Seidel sweeps in turn, for processes whose factors cost too much.
+
+use std::sync::Arc;
+
+use crate::linear::Sweeps;
+use crate::model::Mdp;
+use crate::solver::Working;
+use crate::solver::evaluated::{Evaluated, Memory};
+use crate::solver::greedy::Tolerances;
+use crate::solver::tables::Tables;
+
+/// Share of the residual that sweeps leave before actions are chosen again.
+const SHARE: f64 = 0.05;
+/// Rounds without a smaller residual after which only rounding is left.
+const PATIENCE: usize = 10;
+/// Sweeps between two choices of actions, at most.
+const MAX_SWEEPS: usize = 200;
+
+#[derive(Debug, Clone)]
+pub(super) struct Sweeping {
+    current: Arc<Evaluated>,
+    memory: Memory,
+    /// The policy that is being improved.
+    policy: Vec<usize>,
+    /// Its rewards.
+    rewards: Vec<f64>,
+}
+
+impl Sweeping {
+    pub(super) fn new(mdp: &Mdp) -> Self {
+        let policy = vec![0; mdp.n_states()];
+        let mut memory = Memory::new(policy.len() * (mdp.n_features() + 2));
+        let current = memory.add(Evaluated::new(policy.clone()));
+        Self { current, memory, rewards: vec![0.0; policy.len()], policy }
+    }
+
+    /// The policy last found.
+    pub(super) fn current(&self) -> Arc<Evaluated> {
+        Arc::clone(&self.current)
+    }
+
+    /// The first optimal policy under the rewards at hand; V and Q into `values`, from which the search starts, and `q`.
+    pub(super) fn solve(
+        &mut self,
+        tables: &Tables<'_>,
+        tolerances: Tolerances,
+        working: &mut Working,
+        values: &mut [f64],
+        q: &mut [f64],
+    ) -> Arc<Evaluated> {
+        let (mdp, gamma) = (tables.mdp, tables.mdp.gamma());
+        let enough = (1.0 - gamma) * tolerances.rounding;
+        if values.iter().any(|value| !value.is_finite()) {
+            values.fill(0.0);
+        }
+        let (mut least, mut since) = (f64::INFINITY, 0);
+        let mut layout: Option<(Sweeps, Vec<f64>)> = None;
+        loop {
+            tables.backup(&working.rewards, values, q);
+            working.greedy.set(q, tolerances.tie);
+            let residual = largest_difference(&working.greedy.best, values);
+            if residual < least {
+                (least, since) = (residual, 0);
+            } else {
+                since += 1;
+            }
+            if residual <= enough || since > PATIENCE {
+                break;
+            }
+            if self.improve(tables, working, q) || layout.is_none() {
+                let sweeps = Sweeps::new(mdp.n_states(), gamma, gamma, |state| mdp.row(state, self.policy[state]));
+                let prepared = sweeps.prepared(&self.rewards, 1);
+                layout = Some((sweeps, prepared));
+            }
+            let (sweeps, prepared) = layout.as_ref().expect("laid out in the first round");
+            for _ in 0..MAX_SWEEPS {
+                if sweeps.sweep(prepared, values) <= (SHARE * residual).max(0.5 * enough) {
+                    break;
+                }
+            }
+        }
+        if working.greedy.first != self.current.actions {
+            let first = &working.greedy.first;
+            self.current = self.memory.find(first).unwrap_or_else(|| {
+                self.memory.add(Evaluated::new(first.iter().map(|&action| action as usize).collect()))
+            });
+        }
+        self.current()
+    }
+
+    /// Takes the best action wherever it is better than the present one; whether there was any.
+    fn improve(&mut self, tables: &Tables<'_>, working: &Working, q: &[f64]) -> bool {
+        let n = self.policy.len();
+        let mut improved = false;
+        for (state, action) in self.policy.iter_mut().enumerate() {
+            let best = working.greedy.best[state];
+            if best > q[*action * n + state] {
+                *action = q[state..].iter().step_by(n).position(|q| *q == best).unwrap_or(0);
+                improved = true;
+            }
+            self.rewards[state] = working.rewards[tables.reward_index(state, *action)];
+        }
+        improved
+    }
+}
+
+fn largest_difference(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).fold(0.0, |most, (x, y)| most.max((x - y).abs()))
+}
