@@ -1,29 +1,20 @@
 //! Effective sample size and potential scale reduction of equally long chains, one after another in a slice.
 
-/// n / τ̂ with Geyer's initial monotone positive sequence, over all chains of `per_chain` draws (Vehtari et al. eq. 10–13).
+/// n / τ̂ with Geyer's initial monotone positive sequence (Vehtari et al. eq. 10–13), of `n_chains` chains of `per_chain`
+/// draws whose means have the sample variance `between`.
 ///
-/// A constant series has no autocorrelation to speak of and counts in full.
-pub(super) fn effective_size(draws: &[f64], per_chain: usize) -> f64 {
-    let n = draws.len() as f64;
-    let (low, high) = draws.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
-    if high == low {
-        return n;
-    }
-    let means: Vec<f64> = draws.chunks_exact(per_chain).map(mean).collect();
-    let centred: Vec<f64> = draws
-        .chunks_exact(per_chain)
-        .zip(&means)
-        .flat_map(|(chain, mean)| chain.iter().map(move |x| x - mean))
-        .collect();
-    let (m, length) = (means.len() as f64, per_chain as f64);
-    // Mean over the chains of the autocovariance at one lag, each divided by the chain's length.
-    let autocovariance = |lag: usize| {
-        centred.chunks_exact(per_chain).map(|chain| dot(&chain[lag..], &chain[..per_chain - lag])).sum::<f64>()
-            / length
-            / m
-    };
+/// `autocovariance(lag)` is the mean over the chains of Σ (x_t − x̄)(x_{t+lag} − x̄) / `per_chain`; lags are asked for in
+/// ascending order, and only as far as they matter.
+pub(super) fn geyer_size(
+    n_chains: usize,
+    per_chain: usize,
+    between: f64,
+    autocovariance: impl Fn(usize) -> f64,
+) -> f64 {
+    let length = per_chain as f64;
+    let n = n_chains as f64 * length;
     let within = autocovariance(0) * length / (length - 1.0);
-    let total = within * (length - 1.0) / length + sample_variance(&means);
+    let total = within * (length - 1.0) / length + between;
     let rho = |lag: usize| 1.0 - (within - autocovariance(lag)) / total;
 
     let mut pairs = vec![(1.0, rho(1))];
@@ -45,10 +36,32 @@ pub(super) fn effective_size(draws: &[f64], per_chain: usize) -> f64 {
     n / tau.max(1.0 / libm::log10(n))
 }
 
+/// Effective sample size of the mean of `draws`, chains of `per_chain`.
+///
+/// A constant series has no autocorrelation to speak of and counts in full.
+pub(super) fn effective_size(draws: &[f64], per_chain: usize) -> f64 {
+    let (low, high) = draws.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+    if high == low {
+        return draws.len() as f64;
+    }
+    let means: Vec<f64> = draws.chunks_exact(per_chain).map(mean).collect();
+    let centred: Vec<f64> = draws
+        .chunks_exact(per_chain)
+        .zip(&means)
+        .flat_map(|(chain, mean)| chain.iter().map(move |x| x - mean))
+        .collect();
+    let n_values = draws.len() as f64;
+    geyer_size(means.len(), per_chain, sample_variance(&means), |lag| {
+        centred.chunks_exact(per_chain).map(|chain| dot(&chain[lag..], &chain[..per_chain - lag])).sum::<f64>()
+            / n_values
+    })
+}
+
 /// √(V̂ / W) (Vehtari et al. eq. 1–4): 1 for constant draws, ∞ for chains that are each constant but differ.
 pub(super) fn scale_reduction(draws: &[f64], per_chain: usize) -> f64 {
     let means: Vec<f64> = draws.chunks_exact(per_chain).map(mean).collect();
-    let within = draws.chunks_exact(per_chain).map(sample_variance).sum::<f64>() / means.len() as f64;
+    let variances = draws.chunks_exact(per_chain).zip(&means).map(|(chain, mean)| variance_about(chain, *mean));
+    let within = variances.sum::<f64>() / means.len() as f64;
     let between = sample_variance(&means);
     let length = per_chain as f64;
     if between == 0.0 && within == 0.0 {
@@ -58,22 +71,41 @@ pub(super) fn scale_reduction(draws: &[f64], per_chain: usize) -> f64 {
 }
 
 pub(super) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+    lane_sum(values, |x| x) / values.len() as f64
 }
 
 /// Variance with n − 1 in the denominator; 0 for a single value and exactly 0 for equal ones.
 pub(super) fn sample_variance(values: &[f64]) -> f64 {
+    variance_about(values, mean(values))
+}
+
+fn variance_about(values: &[f64], mean: f64) -> f64 {
     if values.len() < 2 || values.iter().all(|&x| x == values[0]) {
         return 0.0;
     }
-    let mean = mean(values);
-    values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (values.len() - 1) as f64
+    lane_sum(values, |x| (x - mean) * (x - mean)) / (values.len() - 1) as f64
 }
 
-/// Inner product in eight fixed lanes, so that it vectorises and its bits do not depend on the vector width.
+/// Lanes of every sum: it vectorises, and its bits do not depend on the width of the vectors.
+const LANES: usize = 8;
+
+/// Σ f(x).
+fn lane_sum(values: &[f64], f: impl Fn(f64) -> f64) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let chunks = values.chunks_exact(LANES);
+    let rest: f64 = chunks.remainder().iter().map(|&x| f(x)).sum();
+    for chunk in chunks {
+        for (lane, &x) in lanes.iter_mut().zip(chunk) {
+            *lane += f(x);
+        }
+    }
+    lanes.iter().sum::<f64>() + rest
+}
+
+/// Inner product.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut lanes = [0.0; 8];
-    let (a_lanes, b_lanes) = (a.chunks_exact(8), b.chunks_exact(8));
+    let mut lanes = [0.0; LANES];
+    let (a_lanes, b_lanes) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
     let rest: f64 = a_lanes.remainder().iter().zip(b_lanes.remainder()).map(|(a, b)| a * b).sum();
     for (a, b) in a_lanes.zip(b_lanes) {
         for ((lane, a), b) in lanes.iter_mut().zip(a).zip(b) {

@@ -1,9 +1,11 @@
 //! One quantity over all draws of all chains, checked and sorted once, and what can be asked of it.
 
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
-use super::effective::{effective_size, mean, sample_variance, scale_reduction};
-use super::rank::{folded, order, scores};
+use super::effective::{effective_size, scale_reduction};
+use super::indicator::indicator_size;
+use super::rank::{NormalScores, folded, order};
 
 /// Fewer draws a chain than this say nothing about mixing.
 pub const MIN_DRAWS_PER_CHAIN: usize = 4;
@@ -41,43 +43,30 @@ pub enum SeriesError {
 #[derive(Debug, Clone)]
 pub struct Series<'a> {
     draws: &'a [f64],
+    order: Vec<u32>,
     sorted: Vec<f64>,
     /// Half chains one after another; an odd chain loses its middle draw.
     halves: Cow<'a, [f64]>,
-    order: Vec<u32>,
     per_half: usize,
+    ranked: OnceLock<Ranked>,
+}
+
+/// What rank normalisation needs, made when it is first asked for.
+#[derive(Debug, Clone)]
+struct Ranked {
+    table: NormalScores,
+    /// Scores of the half chains.
+    bulk: Vec<f64>,
 }
 
 impl<'a> Series<'a> {
     /// Checks and sorts `draws`, which hold `n_chains` chains of equal length one after another.
     pub fn new(draws: &'a [f64], n_chains: usize) -> Result<Self, SeriesError> {
-        let n = draws.len();
-        if n_chains == 0 || !n.is_multiple_of(n_chains) {
-            return Err(SeriesError::Ragged { n, n_chains });
-        }
-        let per_chain = n / n_chains;
-        if per_chain < MIN_DRAWS_PER_CHAIN {
-            return Err(SeriesError::TooShort { got: per_chain, needed: MIN_DRAWS_PER_CHAIN });
-        }
-        if let Some(index) = draws.iter().position(|x| !x.is_finite()) {
-            return Err(SeriesError::NotFinite { index, value: draws[index] });
-        }
-        let per_half = per_chain / 2;
-        let halves = if per_chain.is_multiple_of(2) {
-            Cow::Borrowed(draws)
-        } else {
-            let ends = |chain: &'a [f64]| chain[..per_half].iter().chain(&chain[per_chain - per_half..]);
-            Cow::Owned(draws.chunks_exact(per_chain).flat_map(ends).copied().collect())
-        };
-        let order = order(&halves);
-        let sorted = if per_chain.is_multiple_of(2) {
-            order.iter().map(|&index| draws[index as usize]).collect()
-        } else {
-            let mut sorted = draws.to_vec();
-            sorted.sort_unstable_by(f64::total_cmp);
-            sorted
-        };
-        Ok(Self { draws, sorted, halves, order, per_half })
+        let per_chain = check(draws, n_chains)?;
+        let order = order(draws);
+        let sorted = order.iter().map(|&index| draws[index as usize]).collect();
+        let halves = split(draws, per_chain);
+        Ok(Self { draws, order, sorted, halves, per_half: per_chain / 2, ranked: OnceLock::new() })
     }
 
     /// All draws, ascending: the order statistics.
@@ -85,27 +74,42 @@ impl<'a> Series<'a> {
         &self.sorted
     }
 
+    /// The places of [`Self::sorted`] among the draws; equal draws in the order in which they stand.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
     /// Number of draws.
     pub fn n(&self) -> usize {
         self.draws.len()
     }
 
-    /// Mean of the draws.
-    pub fn mean(&self) -> f64 {
-        mean(self.draws)
+    /// The draws, chains one after another.
+    pub(super) fn draws(&self) -> &[f64] {
+        self.draws
+    }
+
+    /// Half chains one after another, each of [`Self::per_half`] draws.
+    pub(super) fn halves(&self) -> &[f64] {
+        &self.halves
+    }
+
+    pub(super) fn per_half(&self) -> usize {
+        self.per_half
     }
 
     /// Rank-normalised split R̂, the larger of the plain and the folded one; 1 when all draws are equal, ∞ when every
     /// chain is stuck at a place of its own.
     pub fn rhat(&self) -> f64 {
-        let plain = scale_reduction(&scores(&self.halves, &self.order), self.per_half);
-        let (distances, order) = folded(&self.halves, &self.order);
-        plain.max(scale_reduction(&scores(&distances, &order), self.per_half))
+        let plain = scale_reduction(&self.ranked().bulk, self.per_half);
+        let (ascending, order) = self.ordered_halves();
+        let (distances, order) = folded(&ascending, &order);
+        plain.max(scale_reduction(&self.ranked().table.of(&distances, &order), self.per_half))
     }
 
     /// Bulk effective sample size: of the rank-normalised draws.
     pub fn ess_bulk(&self) -> f64 {
-        effective_size(&scores(&self.halves, &self.order), self.per_half)
+        effective_size(&self.ranked().bulk, self.per_half)
     }
 
     /// Tail effective sample size: the smaller of those of the 5 % and the 95 % quantile.
@@ -113,28 +117,62 @@ impl<'a> Series<'a> {
         self.ess_quantile(0.05).min(self.ess_quantile(0.95))
     }
 
-    /// Effective sample size of the empirical quantile at a level in [0, 1] (linear between order statistics).
-    pub fn ess_quantile(&self, level: f64) -> f64 {
-        let position = level.clamp(0.0, 1.0) * (self.n() - 1) as f64;
-        let below = position as usize;
-        let above = (below + 1).min(self.n() - 1);
-        let share = position - below as f64;
-        self.ess_indicator(self.sorted[below] + share * (self.sorted[above] - self.sorted[below]))
-    }
-
     /// Effective sample size of the indicator I(x ≤ threshold); n when it is the same for all draws.
     pub fn ess_indicator(&self, threshold: f64) -> f64 {
-        let indicator: Vec<f64> = self.halves.iter().map(|&x| if x <= threshold { 1.0 } else { 0.0 }).collect();
-        effective_size(&indicator, self.per_half)
+        indicator_size(&self.halves, self.per_half, |x| x <= threshold)
     }
 
-    /// Effective sample size of the mean.
-    pub fn ess_mean(&self) -> f64 {
-        effective_size(&self.halves, self.per_half)
+    fn ranked(&self) -> &Ranked {
+        self.ranked.get_or_init(|| {
+            let table = NormalScores::new(self.halves.len());
+            let (ascending, order) = self.ordered_halves();
+            let bulk = table.of(&ascending, &order);
+            Ranked { table, bulk }
+        })
     }
 
-    /// Monte Carlo standard error of the mean.
-    pub fn mcse_mean(&self) -> f64 {
-        libm::sqrt(sample_variance(self.draws) / self.ess_mean())
+    /// [`Self::sorted`] and [`Self::order`] of the half chains: without the draws that splitting leaves out.
+    fn ordered_halves(&self) -> (Cow<'_, [f64]>, Cow<'_, [u32]>) {
+        if self.halves.len() == self.draws.len() {
+            return (Cow::Borrowed(&self.sorted), Cow::Borrowed(&self.order));
+        }
+        let per_half = self.per_half as u32;
+        let per_chain = 2 * per_half + 1;
+        let kept = |index: u32| {
+            let (chain, place) = (index / per_chain, index % per_chain);
+            (place != per_half).then(|| 2 * per_half * chain + place - u32::from(place > per_half))
+        };
+        let order: Vec<u32> = self.order.iter().filter_map(|&index| kept(index)).collect();
+        let ascending: Vec<f64> = order.iter().map(|&index| self.halves[index as usize]).collect();
+        (Cow::Owned(ascending), Cow::Owned(order))
     }
+}
+
+/// Draws a chain, when `draws` are `n_chains` chains that can be judged.
+pub(super) fn check(draws: &[f64], n_chains: usize) -> Result<usize, SeriesError> {
+    let n = draws.len();
+    if n_chains == 0 || !n.is_multiple_of(n_chains) {
+        return Err(SeriesError::Ragged { n, n_chains });
+    }
+    let per_chain = n / n_chains;
+    if per_chain < MIN_DRAWS_PER_CHAIN {
+        return Err(SeriesError::TooShort { got: per_chain, needed: MIN_DRAWS_PER_CHAIN });
+    }
+    match draws.iter().position(|x| !x.is_finite()) {
+        Some(index) => Err(SeriesError::NotFinite { index, value: draws[index] }),
+        None => Ok(per_chain),
+    }
+}
+
+/// Half chains of `per_chain / 2` draws one after another; an odd chain loses its middle draw.
+pub(super) fn split(draws: &[f64], per_chain: usize) -> Cow<'_, [f64]> {
+    let per_half = per_chain / 2;
+    if per_chain.is_multiple_of(2) {
+        return Cow::Borrowed(draws);
+    }
+    draws
+        .chunks_exact(per_chain)
+        .flat_map(|chain| chain[..per_half].iter().chain(&chain[per_chain - per_half..]))
+        .copied()
+        .collect()
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Random, flowers, flowers_weights, lesson, placements, table};
-use posterior::{Likelihood, Placement};
+use likelihood::placements::{PlacementLikelihood, Placement};
 use proptest::prelude::{prop_assert, proptest};
 use scene::{Field, Grid, Point, Rbf};
 
@@ -21,8 +21,8 @@ fn agrees_with_the_author_s_program() {
         (10.0, Point::new(0.5, 0.5), -3.13533005),
     ];
     for (beta, at, want) in cases {
-        let placement = Placement { scene: &scene, at, beta, masked: false };
-        let likelihood = Likelihood::new(13, &[placement], &Grid::linspace(10));
+        let placement = Placement { scene: &scene, at, factor: beta, masked: false };
+        let likelihood = PlacementLikelihood::new(13, &[placement], &Grid::linspace(10));
         let got = likelihood.value(&w) - 100.0_f64.ln();
         assert!((got - want).abs() < 5e-9, "beta {beta}: {got} vs {want}");
     }
@@ -34,7 +34,7 @@ fn leaves_occupied_cells_out() {
     for side in [64, 10, 13] {
         let grid = Grid::midpoints(side);
         for beta in [100.0, 5000.0] {
-            let likelihood = Likelihood::new(14, &placements(&lesson, beta), &grid);
+            let likelihood = PlacementLikelihood::new(14, &placements(&lesson, beta), &grid);
             let w = Random(9).l1_sphere(14);
             let mut plain = 0.0;
             for demonstration in &lesson {
@@ -56,8 +56,8 @@ fn leaves_occupied_cells_out() {
 #[test]
 fn a_table_without_objects_is_fine() {
     let scene = table(&[], 0.04);
-    let placement = Placement { scene: &scene, at: Point::new(0.3, 0.6), beta: 50.0, masked: true };
-    let likelihood = Likelihood::new(9, &[placement], &Grid::midpoints(32));
+    let placement = Placement { scene: &scene, at: Point::new(0.3, 0.6), factor: 50.0, masked: true };
+    let likelihood = PlacementLikelihood::new(9, &[placement], &Grid::midpoints(32));
     let mut gradient = vec![0.0; 9];
     assert!(likelihood.value_and_gradient(&Random(1).l1_sphere(9), &mut gradient).is_finite());
     assert_eq!(likelihood.n_free().collect::<Vec<_>>().len(), 1);
@@ -72,7 +72,7 @@ proptest! {
         let mut random = Random(seed);
         let (w, v) = (random.l1_sphere(features), random.l1_sphere(features));
         let lesson = lesson(n, n_objects, &v, seed);
-        let likelihood = Likelihood::new(features, &placements(&lesson, beta), &Grid::midpoints(20));
+        let likelihood = PlacementLikelihood::new(features, &placements(&lesson, beta), &Grid::midpoints(20));
         let mut gradient = vec![0.0; features];
         let value = likelihood.value_and_gradient(&w, &mut gradient);
         prop_assert!((value - likelihood.value(&w)).abs() < 1e-12 * (1.0 + value.abs()));

@@ -3,17 +3,18 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use posterior::{Lesson, Likelihood, Settings, sample};
+use likelihood::placements::PlacementLikelihood;
+use posterior::{Lesson, Settings, sample};
 use scene::Grid;
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../../likelihood/tests/common/mod.rs"]
 mod common;
 
 fn likelihood(c: &mut Criterion) {
     let lesson = common::lesson(10, 4, &common::flowers_weights(), 1);
     let w = common::flowers_weights();
     for side in [64, 16] {
-        let likelihood = Likelihood::new(13, &common::placements(&lesson, 100.0), &Grid::midpoints(side));
+        let likelihood = PlacementLikelihood::new(13, &common::placements(&lesson, 100.0), &Grid::midpoints(side));
         c.bench_function(&format!("log-likelihood of 10 demonstrations on {side} x {side}"), |b| {
             b.iter(|| likelihood.value(black_box(&w)));
         });

@@ -4,10 +4,11 @@
 //! the sphere (fewer demonstrations than weights, or placements better than β expects) it is the answer. Otherwise the
 //! sphere is climbed from several starts around it.
 
-use crate::likelihood::Scratch;
+use likelihood::placements::{PlacementLikelihood, Scratch};
+
+use crate::Prior;
 use crate::linear::{dot, largest_eigenvalue, times};
-use crate::sphere::{nearest_in_ball, nearest_on_sphere, norm};
-use crate::{Likelihood, Prior};
+use crate::prior::{nearest_in_ball, nearest_on_sphere, norm};
 
 /// Of equally likely weights the smaller are preferred by ½ this ‖w‖²: at most half a thousandth of a nat, enough to make
 /// the answer unique, so that a little different evidence gives a little different answer.
@@ -26,41 +27,54 @@ enum Domain {
     Sphere,
 }
 
-/// The most likely weights on the prior's sphere and their log-likelihood (`exact`). `coarse` is the same likelihood on
-/// wider cells, used to get near.
+/// The most likely weights on the prior's sphere at rationality `beta`, and their log-likelihood (`exact`). `coarse` is the
+/// same likelihood on wider cells, used to get near.
 ///
 /// Without placements all weights are as likely as any other; then they are all equal and positive.
-pub(crate) fn most_likely(prior: Prior, exact: &Likelihood, coarse: &Likelihood) -> (Vec<f64>, f64) {
+pub(crate) fn most_likely(
+    prior: Prior,
+    beta: f64,
+    exact: &PlacementLikelihood,
+    coarse: &PlacementLikelihood,
+) -> (Vec<f64>, f64) {
     let n = exact.n_features();
     if exact.n_placements() == 0 {
         return (nearest_on_sphere(prior, &vec![0.0; n]), 0.0);
     }
     let mut climber =
-        Climber { prior, coarse, exact, coarse_scratch: coarse.scratch(), exact_scratch: exact.scratch() };
-    let (near, _) = climber.climb(vec![0.0; n], Domain::Ball, coarse);
-    let (inner, _) = climber.climb(near, Domain::Ball, exact);
+        Climber { prior, beta, coarse, exact, coarse_scratch: coarse.scratch(), exact_scratch: exact.scratch() };
+    let (near, _) = climber.climb(vec![0.0; n], Domain::Ball, Cells::Wide);
+    let (inner, _) = climber.climb(near, Domain::Ball, Cells::Exact);
     if norm(prior, &inner) > 1.0 - 1e-6 {
         let w = nearest_on_sphere(prior, &inner);
-        let value = exact.value_with(&w, &mut climber.exact_scratch);
+        let value = climber.value(&w, Cells::Exact);
         return (w, value);
     }
     let mut best: Option<(Vec<f64>, f64)> = None;
     for start in climber.starts(&inner) {
-        let (near, value) = climber.climb(start, Domain::Sphere, coarse);
+        let (near, value) = climber.climb(start, Domain::Sphere, Cells::Wide);
         if best.as_ref().is_none_or(|(_, top)| value > *top) {
             best = Some((near, value));
         }
     }
     let (near, _) = best.expect("there is at least one start");
-    let (w, _) = climber.climb(near, Domain::Sphere, exact);
-    let value = exact.value_with(&w, &mut climber.exact_scratch);
+    let (w, _) = climber.climb(near, Domain::Sphere, Cells::Exact);
+    let value = climber.value(&w, Cells::Exact);
     (w, value)
+}
+
+/// On which cells the likelihood is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cells {
+    Wide,
+    Exact,
 }
 
 struct Climber<'a> {
     prior: Prior,
-    coarse: &'a Likelihood,
-    exact: &'a Likelihood,
+    beta: f64,
+    coarse: &'a PlacementLikelihood,
+    exact: &'a PlacementLikelihood,
     coarse_scratch: Scratch,
     exact_scratch: Scratch,
 }
@@ -80,7 +94,7 @@ impl Climber<'_> {
                     if norm(self.prior, &start) < 1.0 { low = middle } else { high = middle }
                 }
                 let start = nearest_on_sphere(self.prior, &start);
-                along_axes.push((self.coarse.value_with(&start, &mut self.coarse_scratch), start));
+                along_axes.push((self.value(&start, Cells::Wide), start));
             }
         }
         along_axes.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -90,14 +104,15 @@ impl Climber<'_> {
 
     /// Climbs `likelihood` by steps that maximise a quadratic model over the domain, its curvature taken from the coarse
     /// likelihood and raised until the step is uphill. Returns the top and the objective there.
-    fn climb(&mut self, start: Vec<f64>, domain: Domain, likelihood: &Likelihood) -> (Vec<f64>, f64) {
+    fn climb(&mut self, start: Vec<f64>, domain: Domain, cells: Cells) -> (Vec<f64>, f64) {
         let n = start.len();
         let mut w = start;
         let mut gradient = vec![0.0; n];
-        let mut objective = self.objective(likelihood, &w, &mut gradient);
+        let mut objective = self.objective(cells, &w, &mut gradient);
         let mut damping = 0.0;
         for _ in 0..MAX_STEPS {
-            let mut curvature = self.coarse.information(&w, &mut self.coarse_scratch);
+            let mut curvature = self.coarse.information(&self.theta(&w), &mut self.coarse_scratch);
+            curvature.iter_mut().for_each(|c| *c *= self.beta * self.beta);
             for i in 0..n {
                 curvature[i * n + i] += TIE_BREAK + damping;
             }
@@ -107,7 +122,7 @@ impl Climber<'_> {
                 break;
             }
             let mut there = vec![0.0; n];
-            let value = self.objective(likelihood, &step, &mut there);
+            let value = self.objective(cells, &step, &mut there);
             if value > objective {
                 (w, gradient, objective) = (step, there, value);
                 damping = if damping < 1e-3 { 0.0 } else { damping / 8.0 };
@@ -118,12 +133,27 @@ impl Climber<'_> {
         (w, objective)
     }
 
-    fn objective(&mut self, likelihood: &Likelihood, w: &[f64], gradient: &mut [f64]) -> f64 {
-        let scratch =
-            if std::ptr::eq(likelihood, self.exact) { &mut self.exact_scratch } else { &mut self.coarse_scratch };
-        let value = likelihood.value_and_gradient_with(w, gradient, scratch);
+    fn theta(&self, w: &[f64]) -> Vec<f64> {
+        w.iter().map(|w| self.beta * w).collect()
+    }
+
+    fn value(&mut self, w: &[f64], cells: Cells) -> f64 {
+        let theta = self.theta(w);
+        match cells {
+            Cells::Wide => self.coarse.value_with(&theta, &mut self.coarse_scratch),
+            Cells::Exact => self.exact.value_with(&theta, &mut self.exact_scratch),
+        }
+    }
+
+    fn objective(&mut self, cells: Cells, w: &[f64], gradient: &mut [f64]) -> f64 {
+        let theta = self.theta(w);
+        let (likelihood, scratch) = match cells {
+            Cells::Wide => (self.coarse, &mut self.coarse_scratch),
+            Cells::Exact => (self.exact, &mut self.exact_scratch),
+        };
+        let value = likelihood.value_and_gradient_with(&theta, gradient, scratch);
         for (g, w) in gradient.iter_mut().zip(w) {
-            *g -= TIE_BREAK * w;
+            *g = self.beta * *g - TIE_BREAK * w;
         }
         value - 0.5 * TIE_BREAK * dot(w, w)
     }

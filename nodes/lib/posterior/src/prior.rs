@@ -1,7 +1,8 @@
 //! Priors as transforms of independent standard normals, so that a sampler sees no constraint.
 //!
-//! L1 sphere: x = F⁻¹_Laplace(Φ(z)) elementwise, w = x/‖x‖₁ is uniform on ‖w‖₁ = 1. L2 sphere: w = z/‖z‖₂. Neither density
-//! needs a Jacobian term: z keeps its normal prior and the likelihood is a function of w(z).
+//! L1 sphere: x = F⁻¹_Laplace(Φ(z)) elementwise, w = x/‖x‖₁ is uniform on ‖w‖₁ = 1. L2 sphere: w = z/‖z‖₂. Gaussian: w = σ z.
+//! Laplace: w = b F⁻¹_Laplace(Φ(z)). No density needs a Jacobian term: z keeps its normal prior and the likelihood is a function
+//! of w(z).
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -9,57 +10,73 @@ use crate::Prior;
 
 /// Scratch for one weight vector and its derivatives.
 #[derive(Debug, Clone)]
-pub(crate) struct Sphere {
+pub(crate) struct Transform {
     prior: Prior,
     /// dx/dz, elementwise.
     slope: Vec<f64>,
-    /// ‖x‖.
+    /// ‖x‖ on a sphere, else 1.
     norm: f64,
 }
 
-impl Sphere {
+impl Transform {
     pub(crate) fn new(prior: Prior, n_features: usize) -> Self {
-        Self { prior, slope: vec![0.0; n_features], norm: 1.0 }
+        Self { prior, slope: vec![1.0; n_features], norm: 1.0 }
     }
 
     /// w(z) into `w`; remembers the derivatives there.
     pub(crate) fn weights(&mut self, z: &[f64], w: &mut [f64]) {
         match self.prior {
-            Prior::L1Sphere => {
+            Prior::L1Sphere | Prior::Laplace { .. } => {
                 for ((w, slope), &z) in w.iter_mut().zip(&mut self.slope).zip(z) {
                     (*w, *slope) = laplace_from_normal(z);
                 }
-                self.norm = w.iter().map(|x| x.abs()).sum();
             }
-            Prior::L2Sphere => {
-                w.copy_from_slice(z);
-                self.slope.fill(1.0);
-                self.norm = libm::sqrt(w.iter().map(|x| x * x).sum());
-            }
+            Prior::L2Sphere | Prior::Gaussian { .. } => w.copy_from_slice(z),
         }
-        // All weights zero has probability zero, but a number must come out.
-        self.norm = self.norm.max(f64::MIN_POSITIVE);
-        w.iter_mut().for_each(|w| *w /= self.norm);
+        match self.prior {
+            Prior::L1Sphere | Prior::L2Sphere => {
+                // All weights zero has probability zero, but a number must come out.
+                self.norm = norm(self.prior, w).max(f64::MIN_POSITIVE);
+                w.iter_mut().for_each(|w| *w /= self.norm);
+            }
+            Prior::Gaussian { scale } | Prior::Laplace { scale } => w.iter_mut().for_each(|w| *w *= scale),
+        }
     }
 
-    /// Turns ∇_w into ∇_z at the point last given to [`Sphere::weights`], whose weights are `w`: Jᵀ∇.
+    /// Turns ∇_w into ∇_z at the point last given to [`Transform::weights`], whose weights are `w`: Jᵀ∇.
     pub(crate) fn pull_back(&self, w: &[f64], gradient: &mut [f64]) {
+        if let Prior::Gaussian { scale } | Prior::Laplace { scale } = self.prior {
+            for (g, slope) in gradient.iter_mut().zip(&self.slope) {
+                *g *= scale * slope;
+            }
+            return;
+        }
         let radial: f64 = gradient.iter().zip(w).map(|(g, w)| g * w).sum();
         for ((g, w), slope) in gradient.iter_mut().zip(w).zip(&self.slope) {
-            let outward = match self.prior {
-                Prior::L1Sphere => f64::from(u8::from(*w > 0.0)) - f64::from(u8::from(*w < 0.0)),
-                Prior::L2Sphere => *w,
+            let outward = if self.prior == Prior::L2Sphere {
+                *w
+            } else {
+                f64::from(u8::from(*w > 0.0)) - f64::from(u8::from(*w < 0.0))
             };
             *g = (*g - outward * radial) * slope / self.norm;
         }
     }
 }
 
+/// Log prior density of w up to a constant, where the prior has one on all of space; 0 on a sphere.
+pub(crate) fn log_prior(prior: Prior, w: &[f64]) -> f64 {
+    match prior {
+        Prior::L1Sphere | Prior::L2Sphere => 0.0,
+        Prior::Gaussian { scale } => -0.5 * w.iter().map(|w| w * w).sum::<f64>() / (scale * scale),
+        Prior::Laplace { scale } => -w.iter().map(|w| w.abs()).sum::<f64>() / scale,
+    }
+}
+
 /// ‖w‖ in the norm of the prior.
 pub(crate) fn norm(prior: Prior, w: &[f64]) -> f64 {
     match prior {
-        Prior::L1Sphere => w.iter().map(|w| w.abs()).sum(),
-        Prior::L2Sphere => libm::sqrt(w.iter().map(|w| w * w).sum()),
+        Prior::L1Sphere | Prior::Laplace { .. } => w.iter().map(|w| w.abs()).sum(),
+        Prior::L2Sphere | Prior::Gaussian { .. } => libm::sqrt(w.iter().map(|w| w * w).sum()),
     }
 }
 
@@ -68,14 +85,15 @@ pub(crate) fn nearest_in_ball(prior: Prior, w: &[f64]) -> Vec<f64> {
     if norm(prior, w) <= 1.0 { w.to_vec() } else { nearest_on_sphere(prior, w) }
 }
 
-/// The point of the sphere ‖w‖ = 1 nearest to `w` (Euclidean distance); a weight of zero counts as positive.
+/// The point of the sphere ‖w‖ = 1 in the norm of the prior nearest to `w` (Euclidean distance); a weight of zero counts as
+/// positive.
 pub(crate) fn nearest_on_sphere(prior: Prior, w: &[f64]) -> Vec<f64> {
     let n = w.len() as f64;
     let norm = norm(prior, w);
     match prior {
-        Prior::L2Sphere if norm > 0.0 => w.iter().map(|w| w / norm).collect(),
-        Prior::L2Sphere => vec![1.0 / libm::sqrt(n); w.len()],
-        Prior::L1Sphere => {
+        Prior::L2Sphere | Prior::Gaussian { .. } if norm > 0.0 => w.iter().map(|w| w / norm).collect(),
+        Prior::L2Sphere | Prior::Gaussian { .. } => vec![1.0 / libm::sqrt(n); w.len()],
+        Prior::L1Sphere | Prior::Laplace { .. } => {
             // |w_i| − θ where that is positive, θ such that they sum to 1; θ < 0 inside the sphere.
             let mut sizes: Vec<f64> = w.iter().map(|w| w.abs()).collect();
             sizes.sort_unstable_by(|a, b| b.total_cmp(a));
@@ -116,7 +134,7 @@ fn scaled_erfc(t: f64) -> f64 {
 #[cfg(test)]
 #[allow(clippy::excessive_precision)]
 mod tests {
-    use super::{Sphere, laplace_from_normal, nearest_in_ball, nearest_on_sphere, norm};
+    use super::{Transform, laplace_from_normal, nearest_in_ball, nearest_on_sphere, norm};
     use crate::Prior;
     use proptest::prelude::{prop_assert, proptest};
 
@@ -161,14 +179,19 @@ mod tests {
         }
 
         #[test]
-        fn pull_back_is_the_derivative(z in proptest::collection::vec(-6.0..6.0_f64, 2..6), l1: bool, seed in 0..50_u8) {
-            let prior = if l1 { Prior::L1Sphere } else { Prior::L2Sphere };
+        fn pull_back_is_the_derivative(z in proptest::collection::vec(-6.0..6.0_f64, 2..6), which in 0..4_usize, seed in 0..50_u8) {
+            let prior = [
+                Prior::L1Sphere,
+                Prior::L2Sphere,
+                Prior::Gaussian { scale: 1.7 },
+                Prior::Laplace { scale: 0.4 },
+            ][which];
             let n = z.len();
             let direction: Vec<f64> = (0..n).map(|i| f64::from(seed) * 0.1 + i as f64 - 1.5).collect();
-            let mut sphere = Sphere::new(prior, n);
+            let mut transform = Transform::new(prior, n);
             let mut w = vec![0.0; n];
-            let mut value = |sphere: &mut Sphere, z: &[f64]| {
-                sphere.weights(z, &mut w);
+            let mut value = |transform: &mut Transform, z: &[f64]| {
+                transform.weights(z, &mut w);
                 w.iter().zip(&direction).map(|(w, d)| w * d).sum::<f64>()
             };
             for i in 0..n {
@@ -177,17 +200,18 @@ mod tests {
                 let (mut above, mut below) = (z.clone(), z.clone());
                 above[i] += h;
                 below[i] -= h;
-                let numeric = (value(&mut sphere, &above) - value(&mut sphere, &below)) / (2.0 * h);
+                let numeric = (value(&mut transform, &above) - value(&mut transform, &below)) / (2.0 * h);
                 let mut gradient = direction.clone();
                 let mut w = vec![0.0; n];
-                sphere.weights(&z, &mut w);
-                sphere.pull_back(&w, &mut gradient);
+                transform.weights(&z, &mut w);
+                transform.pull_back(&w, &mut gradient);
                 prop_assert!((gradient[i] - numeric).abs() < 1e-6 * (1.0 + numeric.abs()), "{} vs {numeric}", gradient[i]);
             }
             let mut w = vec![0.0; n];
-            sphere.weights(&z, &mut w);
-            let norm: f64 = if l1 { w.iter().map(|w| w.abs()).sum() } else { w.iter().map(|w| w * w).sum::<f64>().sqrt() };
-            prop_assert!((norm - 1.0).abs() < 1e-12);
+            transform.weights(&z, &mut w);
+            if which < 2 {
+                prop_assert!((norm(prior, &w) - 1.0).abs() < 1e-12);
+            }
         }
     }
 }

@@ -1,160 +1,157 @@
-//! From demonstrations to draws: a function of settings, seed and the demonstrations in order, of nothing else.
+//! From a model to draws: a function of model, run and seed, of nothing else.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
-use scene::Grid;
-use sha2::{Digest, Sha256};
-
-use crate::hmc::{Acceptance, Chain, Target};
-use crate::most_likely::most_likely;
+use crate::collapsed_density::CollapsedDensity;
+use crate::density::Density;
+use crate::draws::{BetaDraws, Kept, Warm};
+use crate::full_density::FullDensity;
+use crate::hmc::{Acceptance, Chain, MAX_STARTS};
+use crate::map::most_probable;
+use crate::random::chain_generator;
 use crate::warmup::{DualAveraging, pooled_scale};
-use crate::{
-    Demonstration, Draws, EvidenceError, Lesson, Likelihood, MAX_DEMONSTRATIONS, Placement, Settings, SettingsError,
-    evidence_hash,
-};
+use crate::{Draws, Model, ModelError, PosteriorError, Run};
 
 /// Step size to start the search with.
 const FIRST_STEP: f64 = 0.1;
-/// Cells per axis that the forces need at β = 100; sharper likelihoods need more.
-const FORCE_SIDE: usize = 16;
+/// Share of proposals to accept. High where the force is coarse: a rejected move costs a whole trajectory.
+const TARGET_COARSE: f64 = 0.95;
+/// The same where it is exact.
+const TARGET_EXACT: f64 = 0.85;
+/// Jumps after every trajectory where the force is coarse: each costs one exact evaluation, as much as the trajectory.
+const JUMPS_COARSE: usize = 1;
+/// The same where the force is exact: cheap beside a trajectory.
+const JUMPS_EXACT: usize = 2;
 
-/// Why there are no draws.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum PosteriorError {
-    /// A setting out of range.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
-    /// A demonstration that cannot be learned from.
-    #[error(transparent)]
-    Evidence(#[from] EvidenceError),
-}
-
-/// Draws from the posterior of the weights given `demonstrations`, all about the same `lesson`.
+/// Draws from the posterior of `model`. `evidence` is a fingerprint of its evidence: together with `seed` it decides the
+/// random numbers.
 ///
-/// The same for any number of threads and whatever was sampled before. Without demonstrations: draws from the prior.
+/// The same for any number of threads and whatever was sampled before. Without evidence: draws from the prior.
 ///
 /// # Errors
-/// Settings out of range; a demonstration that is malformed, about other objects, or whose target fits nowhere.
-pub fn sample(
-    settings: &Settings,
+/// A run out of range; a model that does not fit together, or of probability zero everywhere.
+pub fn draw(model: &Model<'_>, run: &Run, seed: u64, evidence: &[u8; 32]) -> Result<Draws, PosteriorError> {
+    draw_from(model, run, seed, evidence, None)
+}
+
+/// The same from where an earlier run on almost the same evidence ended, with its step size and scale: a quarter of the
+/// warm-up is enough. The draws then depend on that run too, so a session that must forget what was taken back starts cold.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_from(
+    model: &Model<'_>,
+    run: &Run,
     seed: u64,
-    lesson: &Lesson,
-    demonstrations: &[Demonstration],
+    evidence: &[u8; 32],
+    warm: Option<&Warm>,
 ) -> Result<Draws, PosteriorError> {
-    settings.check()?;
-    if demonstrations.len() > MAX_DEMONSTRATIONS {
-        return Err(EvidenceError::TooMany { got: demonstrations.len() }.into());
-    }
-    for demonstration in demonstrations {
-        lesson.check(demonstration)?;
-    }
-    let placements: Vec<Placement<'_>> = demonstrations
-        .iter()
-        .map(|demonstration| Placement {
-            scene: &demonstration.scene,
-            at: demonstration.placement,
-            beta: settings.beta * settings.confidence_factors[demonstration.confidence as usize],
-            masked: true,
-        })
-        .collect();
-    let grid = Grid::midpoints(settings.grid_side);
-    let exact = Likelihood::new(lesson.n_features(), &placements, &grid);
-    for (demonstration, n_free) in demonstrations.iter().zip(exact.n_free()) {
-        if n_free == 0 {
-            let (id, scene) = (demonstration.id.clone(), demonstration.scene.id.clone());
-            return Err(EvidenceError::NoFreePlace { id, scene }.into());
-        }
-    }
-    let force = force(settings, &exact, &placements, &grid);
-    let (map_weights, map_log_likelihood) = most_likely(settings.prior, &exact, &force);
-    let target = Target { prior: settings.prior, exact: &exact, force: &force };
-    let evidence = evidence_hash(demonstrations);
-    let chains = (0..settings.n_chains).map(|chain| Chain::new(target, generator(seed, &evidence, chain))).collect();
-    let runners = run(settings, chains);
-    let acceptance: f64 = runners.iter().map(|runner| runner.acceptance).sum();
+    run.check()?;
+    model.check()?;
+    let sampled = match CollapsedDensity::plan(model) {
+        Some(plan) => sample(run, seed, evidence, warm, || CollapsedDensity::new(model, &plan)),
+        None => sample(run, seed, evidence, warm, || FullDensity::new(model)),
+    };
+    let (kept, acceptance, warm) = sampled?;
+    let log_likelihood: Vec<f64> = kept.iter().flat_map(|kept| kept.log_likelihood.iter().copied()).collect();
+    let n_terms = model.terms.len();
+    let betas = model.terms.iter().enumerate().map(|(i, term)| BetaDraws {
+        kind: term.kind,
+        values: if term.rationality.is_learned() {
+            kept.iter().flat_map(|kept| kept.betas.iter().skip(i).step_by(n_terms).copied()).collect()
+        } else {
+            vec![term.rationality.median()]
+        },
+    });
     let mut draws = Draws {
-        n_chains: settings.n_chains,
-        per_chain: settings.per_chain(),
-        n_features: lesson.n_features(),
-        values: runners.iter().flat_map(|runner| runner.values.iter().copied()).collect(),
-        log_likelihood: runners.iter().flat_map(|runner| runner.log_likelihood.iter().copied()).collect(),
-        map_weights,
-        map_log_likelihood,
-        acceptance: acceptance / settings.n_draws as f64,
+        n_chains: run.n_chains,
+        per_chain: run.per_chain(),
+        n_features: model.n_features,
+        values: kept.iter().flat_map(|kept| kept.values.iter().copied()).collect(),
+        log_likelihood,
+        betas: betas.collect(),
+        map_weights: Vec::new(),
+        map_betas: Vec::new(),
+        map_log_likelihood: 0.0,
+        acceptance: acceptance / run.n_draws as f64,
         rhat_max: f64::INFINITY,
         ess_bulk_min: 0.0,
+        ess_bulk_median: 0.0,
         ess_tail_min: 0.0,
+        warm,
     };
-    draws.diagnose();
+    let map = most_probable(model, &draws);
+    (draws.map_weights, draws.map_betas, draws.map_log_likelihood) = (map.weights, map.betas, map.log_likelihood);
+    draws.diagnose(run.threads);
     Ok(draws)
 }
 
-/// The likelihood on cells as wide as its sharpness allows: errors in the force cost acceptance, never exactness.
-fn force(settings: &Settings, exact: &Likelihood, placements: &[Placement<'_>], grid: &Grid) -> Likelihood {
-    let side = FORCE_SIDE as f64 * libm::sqrt(settings.beta / 100.0).max(1.0);
-    let widest = (settings.grid_side as f64 / side) as usize;
-    let coarser = (2..=widest).rev().find_map(|factor| exact.coarsened(placements, grid, factor));
-    coarser.unwrap_or_else(|| exact.clone())
-}
-
-fn generator(seed: u64, evidence: &[u8; 32], chain: usize) -> ChaCha8Rng {
-    let mut key = Sha256::new_with_prefix(b"apprentice chain 1");
-    key.update(seed.to_le_bytes());
-    key.update(evidence);
-    key.update((chain as u64).to_le_bytes());
-    ChaCha8Rng::from_seed(key.finalize().into())
-}
-
 /// A chain with what it found out and what it kept.
-struct Runner<'a> {
-    chain: Chain<'a>,
+struct Runner<D> {
+    chain: Chain<D>,
     step: DualAveraging,
     acceptance: f64,
     positions: Vec<f64>,
-    values: Vec<f32>,
-    log_likelihood: Vec<f64>,
+    kept: Kept,
 }
 
-/// Warms all chains up and lets them run.
-fn run<'a>(settings: &Settings, chains: Vec<Chain<'a>>) -> Vec<Runner<'a>> {
-    let n = chains[0].z.len();
-    let per_chain = settings.per_chain();
-    let mut runners: Vec<Runner<'a>> = chains
-        .into_iter()
-        .map(|chain| Runner {
+/// Warms all chains up and lets them run: what each kept, the sum of acceptance probabilities, and a start for later.
+fn sample<D: Density>(
+    run: &Run,
+    seed: u64,
+    evidence: &[u8; 32],
+    warm: Option<&Warm>,
+    density: impl Fn() -> D,
+) -> Result<(Vec<Kept>, f64, Warm), PosteriorError> {
+    let mut runners = Vec::with_capacity(run.n_chains);
+    let mut target = TARGET_EXACT;
+    let n = density().n();
+    let warm = warm.filter(|warm| warm.scale.len() == n * n && warm.positions.len() == run.n_chains);
+    for chain in 0..run.n_chains {
+        let density = density();
+        target = if density.force_is_exact() { TARGET_EXACT } else { TARGET_COARSE };
+        let from = warm.map(|warm| warm.positions[chain].as_slice());
+        let chain = Chain::new(density, chain_generator(seed, evidence, chain), from)
+            .ok_or(ModelError::NoStart { tries: MAX_STARTS })?;
+        let first = warm.map_or(FIRST_STEP, |warm| warm.step_size);
+        runners.push(Runner {
             chain,
-            step: DualAveraging::new(FIRST_STEP),
+            step: DualAveraging::new(first, target),
             acceptance: 0.0,
             positions: Vec::new(),
-            values: Vec::with_capacity(n * per_chain),
-            log_likelihood: Vec::with_capacity(per_chain),
-        })
-        .collect();
+            kept: Kept::default(),
+        });
+    }
 
-    // Three rounds on the coarse likelihood find the scale, a last one the step size for the exact one.
-    let mut scale: Vec<f64> = (0..n * n).map(|i| if i % (n + 1) == 0 { 1.0 } else { 0.0 }).collect();
-    for fifths in [1, 1, 2] {
-        let length = settings.warmup * fifths / 5;
-        in_parallel(&mut runners, settings.threads, |runner| runner.explore(length, &scale, Acceptance::Coarse));
+    // Three rounds on the force's density find the scale, a last one the step size for the exact one.
+    let mut scale: Vec<f64> = match warm {
+        Some(warm) => warm.scale.clone(),
+        None => (0..n * n).map(|i| if i % (n + 1) == 0 { 1.0 } else { 0.0 }).collect(),
+    };
+    let rounds: &[usize] = if warm.is_some() { &[2, 3] } else { &[4, 4, 8] };
+    for twentieths in rounds {
+        let length = run.warmup * twentieths / 20;
+        in_parallel(&mut runners, run.threads, |runner| runner.explore(length, &scale, Acceptance::Coarse));
         let positions: Vec<Vec<f64>> = runners.iter_mut().map(|r| std::mem::take(&mut r.positions)).collect();
         // Without any movement there is no covariance: keep the old one and let the diagnostics tell.
         scale = pooled_scale(&positions, n).unwrap_or(scale);
         for runner in &mut runners {
-            runner.step = DualAveraging::new(runner.step.averaged().max(FIRST_STEP));
+            runner.step = DualAveraging::new(runner.step.averaged().max(FIRST_STEP), target);
         }
     }
-    in_parallel(&mut runners, settings.threads, |runner| {
+    in_parallel(&mut runners, run.threads, |runner| {
         runner.chain.refresh_exact();
-        runner.explore(settings.warmup / 5, &scale, Acceptance::Exact);
+        runner.explore(run.warmup / 5, &scale, Acceptance::Exact);
     });
     // One step size for all: chains that differ in it would differ in what they can reach.
     let log_steps: f64 = runners.iter().map(|r| libm::log(r.step.averaged())).sum();
     let step_size = libm::exp(log_steps / runners.len() as f64);
-    in_parallel(&mut runners, settings.threads, |runner| runner.keep(per_chain, step_size, &scale));
-    runners
+    in_parallel(&mut runners, run.threads, |runner| runner.keep(run.per_chain(), step_size, &scale));
+    let acceptance = runners.iter().map(|runner| runner.acceptance).sum();
+    let positions = runners.iter().map(|runner| runner.chain.z.clone()).collect();
+    let kept = runners.into_iter().map(|runner| runner.kept).collect();
+    Ok((kept, acceptance, Warm { positions, scale, step_size }))
 }
 
-impl Runner<'_> {
+impl<D: Density> Runner<D> {
     /// Warm-up: adapts the step size, and remembers positions of the later half.
     fn explore(&mut self, length: usize, scale: &[f64], acceptance: Acceptance) {
         for i in 0..length {
@@ -167,16 +164,19 @@ impl Runner<'_> {
     }
 
     fn keep(&mut self, length: usize, step_size: f64, scale: &[f64]) {
+        let n_jumps = if self.chain.force_is_exact() { JUMPS_EXACT } else { JUMPS_COARSE };
         for _ in 0..length {
             self.acceptance += self.chain.advance(step_size, scale, Acceptance::Exact);
-            self.values.extend(self.chain.w.iter().map(|&w| w as f32));
-            self.log_likelihood.push(self.chain.exact);
+            for _ in 0..n_jumps {
+                self.chain.jump(scale);
+            }
+            self.chain.keep(&mut self.kept);
         }
     }
 }
 
 /// Runs `work` on every runner. Runners share nothing, so what they do does not depend on the number of threads.
-fn in_parallel<'a>(runners: &mut [Runner<'a>], threads: usize, work: impl Fn(&mut Runner<'a>) + Sync) {
+fn in_parallel<D: Density>(runners: &mut [Runner<D>], threads: usize, work: impl Fn(&mut Runner<D>) + Sync) {
     let share = runners.len().div_ceil(threads);
     if share == runners.len() {
         return runners.iter_mut().for_each(work);

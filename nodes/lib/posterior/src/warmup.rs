@@ -2,12 +2,10 @@
 
 use crate::linear::cholesky;
 
-/// Share of proposals to accept.
-const TARGET_ACCEPTANCE: f64 = 0.95;
-
 /// Nesterov's dual averaging of the log step size (Hoffman and Gelman 2014, section 3.2).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DualAveraging {
+    target: f64,
     centre: f64,
     shortfall: f64,
     average: f64,
@@ -16,16 +14,17 @@ pub(crate) struct DualAveraging {
 }
 
 impl DualAveraging {
-    pub(crate) fn new(step_size: f64) -> Self {
+    /// Aims at the share `target` of accepted proposals.
+    pub(crate) fn new(step_size: f64, target: f64) -> Self {
         let log = libm::log(step_size);
-        Self { centre: log + libm::log(3.0), shortfall: 0.0, average: 0.0, count: 0.0, current: log }
+        Self { target, centre: log + libm::log(3.0), shortfall: 0.0, average: 0.0, count: 0.0, current: log }
     }
 
     /// Takes in how the last transition did.
     pub(crate) fn update(&mut self, acceptance: f64) {
         self.count += 1.0;
         let weight = 1.0 / (self.count + 10.0);
-        self.shortfall += weight * (TARGET_ACCEPTANCE - acceptance - self.shortfall);
+        self.shortfall += weight * (self.target - acceptance - self.shortfall);
         self.current = (self.centre - libm::sqrt(self.count) / 0.05 * self.shortfall).clamp(-14.0, 1.0);
         let forget = libm::pow(self.count, -0.75);
         self.average += forget * (self.current - self.average);

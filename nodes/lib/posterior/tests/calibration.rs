@@ -1,10 +1,13 @@
 //! Is the posterior right? Against the prior, against importance sampling, and by simulation-based calibration (method
 //! notes section 3), each with a planted mistake that must be caught.
 
+#[path = "../../likelihood/tests/common/mod.rs"]
 mod common;
 
 use common::{Random, table};
-use posterior::{Confidence, Demonstration, Lesson, Likelihood, Placement, Prior, Settings, normal_quantile, sample};
+use diagnostics::normal_quantile;
+use likelihood::placements::{Placement, PlacementLikelihood};
+use posterior::{Confidence, Demonstration, Lesson, Prior, Rationality, Settings, sample};
 use scene::{Grid, Point, Scene};
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
@@ -68,8 +71,9 @@ fn agrees_with_weighted_draws_from_the_prior() {
             confidence: Confidence::Sure,
         })
         .collect();
-    let likelihood = Likelihood::new(9, &common::placements(&demonstrations, 12.0), &Grid::midpoints(32));
-    let settings = Settings { beta: 12.0, grid_side: 32, n_draws: 8000, ..Settings::default() };
+    let likelihood = PlacementLikelihood::new(9, &common::placements(&demonstrations, 12.0), &Grid::midpoints(32));
+    let settings =
+        Settings { rationality: Rationality::Fixed(12.0), grid_side: 32, n_draws: 8000, ..Settings::default() };
     for prior in [Prior::L1Sphere, Prior::L2Sphere] {
         let mut random = Random(11);
         let (mut total, mut squares) = (0.0, 0.0);
@@ -77,7 +81,7 @@ fn agrees_with_weighted_draws_from_the_prior() {
         for _ in 0..60_000 {
             let w = match prior {
                 Prior::L1Sphere => random.l1_sphere(9),
-                Prior::L2Sphere => {
+                _ => {
                     let z: Vec<f64> = (0..9).map(|_| normal_quantile(random.uniform())).collect();
                     let norm = z.iter().map(|z| z * z).sum::<f64>().sqrt();
                     z.iter().map(|z| z / norm).collect()
@@ -127,7 +131,7 @@ fn calibration(worlds: u64, beta: f64, assumed_beta: f64) -> [f64; 3] {
             })
             .collect();
         let settings = Settings {
-            beta: assumed_beta,
+            rationality: Rationality::Fixed(assumed_beta),
             grid_side: SIDE,
             n_draws: 4 * KEPT,
             warmup: 100,
@@ -136,7 +140,7 @@ fn calibration(worlds: u64, beta: f64, assumed_beta: f64) -> [f64; 3] {
         };
         let lesson = Lesson::new(&demonstrations[0].scene);
         let draws = sample(&settings, world, &lesson, &demonstrations).expect("draws");
-        let truth = Likelihood::new(11, &common::placements(&demonstrations, assumed_beta), &grid).value(&w);
+        let truth = PlacementLikelihood::new(11, &common::placements(&demonstrations, assumed_beta), &grid).value(&w);
         let first = draws.feature(0);
         let rank = |draws: &mut dyn Iterator<Item = f64>, truth: f64| draws.step_by(4).filter(|x| *x < truth).count();
         [
@@ -198,8 +202,8 @@ fn placements_are_scored_where_they_are_drawn() {
     let w = Random(2).l1_sphere(10);
     let field = scene::Field::new(&scene::Rbf::new(&scene), &grid, Some(&scene));
     let densities = (0..grid.n()).filter(|&i| field.free()[i]).map(|i| {
-        let placement = Placement { scene: &scene, at: grid.at(i), beta: 60.0, masked: true };
-        Likelihood::new(10, &[placement], &grid).value(&w).exp()
+        let placement = Placement { scene: &scene, at: grid.at(i), factor: 60.0, masked: true };
+        PlacementLikelihood::new(10, &[placement], &grid).value(&w).exp()
     });
     assert!((mean(densities) - 1.0).abs() < 1e-12);
 }

@@ -1,39 +1,18 @@
 //! The bound to ship: an order statistic of autocorrelated draws, chosen as if there were only as many as they are worth
 //! (method notes section 2; dissertation eq. 4.19 with its index corrected).
 
-use posterior::diagnostics::{Series, SeriesError};
+use diagnostics::Series;
 
 use crate::empirical::{Tail, cvar, value_at_risk};
+use crate::error::{RiskError, check_level};
 use crate::order_statistic::{ceil_rank, n_min, order_index};
 
 /// No bound is given above this rank-normalised split R̂.
 pub const MAX_RHAT: f64 = 1.01;
 /// Fewest chains a bound may rest on.
-const MIN_CHAINS: usize = 4;
+pub(crate) const MIN_CHAINS: usize = 4;
 /// Fewest effective draws per chain a bound may rest on.
 const MIN_ESS_PER_CHAIN: usize = 100;
-
-/// Why losses cannot be judged at all.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum RiskError {
-    /// Not equally long chains of finite numbers.
-    #[error(transparent)]
-    Series(#[from] SeriesError),
-    /// Too few chains to see whether they agree.
-    #[error("{got} chains, but a bound needs at least {MIN_CHAINS}")]
-    TooFewChains {
-        /// Chains given.
-        got: usize,
-    },
-    /// A level outside (0, 1).
-    #[error("{name} is {got}, but must lie strictly between 0 and 1")]
-    Level {
-        /// Which level: `alpha` or `delta`.
-        name: &'static str,
-        /// Its value.
-        got: f64,
-    },
-}
 
 /// What there is to say about an α-quantile.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,32 +81,20 @@ impl Outcome {
 /// # Errors
 /// Ragged or too few chains, chains of fewer than 4 draws, losses that are not finite, levels outside (0, 1).
 pub fn upper_bound(losses: &[f64], n_chains: usize, alpha: f64, delta: f64) -> Result<Outcome, RiskError> {
-    for (name, got) in [("alpha", alpha), ("delta", delta)] {
-        if !(got > 0.0 && got < 1.0) {
-            return Err(RiskError::Level { name, got });
-        }
-    }
+    check_level("alpha", alpha)?;
+    check_level("delta", delta)?;
     if n_chains < MIN_CHAINS {
         return Err(RiskError::TooFewChains { got: n_chains });
     }
     let series = Series::new(losses, n_chains)?;
     let (n, sorted) = (series.n(), series.sorted());
     let estimate = value_at_risk(sorted, alpha, Tail::Upper).expect("a series is not empty");
-
-    let mut ess = series.ess_indicator(estimate).min(n as f64);
-    let mut chosen = choose(sorted, ess, alpha, delta);
-    if let Some((_, value)) = chosen {
-        let again = series.ess_indicator(value);
-        if again < ess {
-            ess = again;
-            chosen = choose(sorted, ess, alpha, delta);
-        }
-    }
+    let (ess, chosen) = settle(n, estimate, |x| series.ess_indicator(x), |ess| choose(sorted, ess, alpha, delta));
     let receipt = Receipt {
         n,
         ess,
         rhat: series.rhat(),
-        needed: usize::max(2 * n_min(alpha, delta), MIN_ESS_PER_CHAIN * n_chains),
+        needed: quantile_needs(alpha, delta, n_chains),
         point_estimate: estimate,
         cvar: cvar(sorted, alpha, Tail::Upper).expect("a series is not empty"),
         mean: series.mean(),
@@ -163,6 +130,32 @@ pub fn lower_bound(returns: &[f64], n_chains: usize, alpha: f64, delta: f64) -> 
         Outcome::NotEnoughSamples(receipt) => Outcome::NotEnoughSamples(mirror(receipt)),
         Outcome::NotMixed(receipt) => Outcome::NotMixed(mirror(receipt)),
     })
+}
+
+/// Effective draws that a bound on an α-quantile needs: max(2 · n_min, 100 · chains).
+pub(crate) fn quantile_needs(alpha: f64, delta: f64, n_chains: usize) -> usize {
+    usize::max(2 * n_min(alpha, delta), chains_need(n_chains))
+}
+
+/// Effective draws that any bound from that many chains needs.
+pub(crate) fn chains_need(n_chains: usize) -> usize {
+    MIN_ESS_PER_CHAIN * n_chains
+}
+
+/// Effective sample size, at most `n`, and what `choose` makes of it: first with the size at the estimate, then once more
+/// with that at the value chosen if it is smaller.
+pub(crate) fn settle<T: Copy>(
+    n: usize,
+    estimate: f64,
+    ess_at: impl Fn(f64) -> f64,
+    choose: impl Fn(f64) -> Option<(T, f64)>,
+) -> (f64, Option<(T, f64)>) {
+    let ess = ess_at(estimate).min(n as f64);
+    let chosen = choose(ess);
+    match chosen.map(|(_, value)| ess_at(value)) {
+        Some(again) if again < ess => (again, choose(again)),
+        _ => (ess, chosen),
+    }
 }
 
 /// 1-based index among all draws, and value, of the order statistic that bounds when the draws are worth `ess`.

@@ -1,8 +1,6 @@
 //! Which order statistic of a sample bounds a quantile with a stated confidence (dissertation section 4.4; the index of
 //! its Algorithm 1 is one too small, method notes 1.1).
 
-use std::f64::consts::PI;
-
 use crate::binomial;
 
 /// 1-based index j of the smallest order statistic of `n` independent draws that is at least the α-quantile with
@@ -17,13 +15,6 @@ pub fn n_min(alpha: f64, delta: f64) -> usize {
     ceil_rank(libm::log(delta) / libm::log(alpha)).max(1)
 }
 
-/// Share of δ to spend on look number `look` (from 1) of a session that bounds again after every answer: 6δ/(π²t²).
-/// Over any number of looks no more than δ is spent.
-pub fn delta_spent(delta: f64, look: u64) -> f64 {
-    let look = look.max(1) as f64;
-    6.0 * delta / (PI * PI * look * look)
-}
-
 /// ⌈x⌉, where a value within rounding error of an integer is that integer (0.95 · 100 is 95).
 pub(crate) fn ceil_rank(x: f64) -> usize {
     let nearest = libm::round(x);
@@ -33,7 +24,7 @@ pub(crate) fn ceil_rank(x: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{ceil_rank, delta_spent, n_min, order_index};
+    use super::{ceil_rank, n_min, order_index};
     use crate::binomial::cdf;
     use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 
@@ -68,12 +59,6 @@ mod tests {
             }
         }
         assert_eq!(n_min(0.5, 0.25), 2);
-    }
-
-    #[test]
-    fn looks_spend_no_more_than_delta() {
-        let spent: f64 = (1..100_000).map(|look| delta_spent(0.05, look)).sum();
-        assert!(spent < 0.05 && spent > 0.0499);
     }
 
     #[test]

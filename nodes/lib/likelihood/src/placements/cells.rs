@@ -3,10 +3,10 @@
 use scene::{FIXED_CENTRES, Field, Grid, Point, Rbf, Scene};
 
 /// Loops run over vectors of this many numbers, whatever the machine's width, so that sums have the same bits everywhere.
-pub(crate) const LANES: usize = 8;
-pub(crate) type Lanes = [f64; LANES];
+pub(super) const LANES: usize = 8;
+pub(super) type Lanes = [f64; LANES];
 /// Fixed centres per axis: they form a grid of their own.
-pub(crate) const FIXED_SIDE: usize = 3;
+pub(super) const FIXED_SIDE: usize = 3;
 /// Log weight of cells the target cannot take: far below anything, yet finite.
 const OCCUPIED: f64 = -1e30;
 
@@ -17,45 +17,45 @@ pub struct Placement<'a> {
     pub scene: &'a Scene,
     /// Where the target was put; normalised coordinates.
     pub at: Point,
-    /// β times the confidence factor.
-    pub beta: f64,
+    /// Factor on θ by the confidence of the person; times β where weights rather than θ are given.
+    pub factor: f64,
     /// Whether occupied grid points are left out of the normaliser.
     pub masked: bool,
 }
 
 impl Placement<'_> {
     /// φ(x_d).
-    pub(crate) fn features(&self) -> Vec<f64> {
+    pub(super) fn features(&self) -> Vec<f64> {
         Rbf::new(self.scene).features(self.at)
     }
 }
 
 /// A scene on the grid.
 #[derive(Debug, Clone)]
-pub(crate) struct Cells {
-    pub(crate) beta: f64,
-    pub(crate) n_objects: usize,
+pub(super) struct Cells {
+    pub(super) factor: f64,
+    pub(super) n_objects: usize,
     /// Vectors per row of the grid.
-    pub(crate) row_length: usize,
+    pub(super) row_length: usize,
     /// Factor of object k along x: `gx[chunk * n_objects + k]`.
-    pub(crate) gx: Vec<Lanes>,
+    pub(super) gx: Vec<Lanes>,
     /// Factor of object k along y: `gy[k * side + row]`.
-    pub(crate) gy: Vec<f64>,
+    pub(super) gy: Vec<f64>,
     /// Log of the share of a cell that is free: `log_weight[row * chunks + chunk]`.
-    pub(crate) log_weight: Vec<Lanes>,
+    pub(super) log_weight: Vec<Lanes>,
     /// Log of the number of free cells, shares counted.
-    pub(crate) log_n_free: f64,
-    pub(crate) n_free: usize,
+    pub(super) log_n_free: f64,
+    pub(super) n_free: usize,
 }
 
 impl Cells {
-    pub(crate) fn new(placement: &Placement<'_>, grid: &Grid) -> Self {
+    pub(super) fn new(placement: &Placement<'_>, grid: &Grid) -> Self {
         let field = Field::new(&Rbf::new(placement.scene), grid, placement.masked.then_some(placement.scene));
         let weights: Vec<f64> = field.free().iter().map(|&free| f64::from(u8::from(free))).collect();
-        Self::with_weights(placement.beta, &field, &weights)
+        Self::with_weights(placement.factor, &field, &weights)
     }
 
-    pub(crate) fn coarsened(placement: &Placement<'_>, fine: &Grid, coarse: &Grid) -> Self {
+    pub(super) fn coarsened(placement: &Placement<'_>, fine: &Grid, coarse: &Grid) -> Self {
         let rbf = Rbf::new(placement.scene);
         let free = Field::new(&rbf, fine, placement.masked.then_some(placement.scene));
         let factor = fine.side() / coarse.side();
@@ -64,10 +64,10 @@ impl Cells {
             let (row, column) = (index / fine.side() / factor, index % fine.side() / factor);
             weights[row * coarse.side() + column] += 1.0 / (factor * factor) as f64;
         }
-        Self::with_weights(placement.beta, &Field::new(&rbf, coarse, None), &weights)
+        Self::with_weights(placement.factor, &Field::new(&rbf, coarse, None), &weights)
     }
 
-    fn with_weights(beta: f64, field: &Field, weights: &[f64]) -> Self {
+    fn with_weights(factor: f64, field: &Field, weights: &[f64]) -> Self {
         let side = field.side();
         let n_objects = field.n_features() - FIXED_CENTRES.len();
         let gx =
@@ -80,7 +80,7 @@ impl Cells {
             .flat_map(|row| (0..chunks(side)).map(move |chunk| padded(row, chunk, OCCUPIED)))
             .collect();
         Self {
-            beta,
+            factor,
             n_objects,
             row_length: chunks(side),
             gx,
@@ -94,15 +94,15 @@ impl Cells {
 
 /// The nine fixed centres on the grid: products of three factors per axis, the same for every scene.
 #[derive(Debug, Clone)]
-pub(crate) struct FixedTable {
+pub(super) struct FixedTable {
     /// `gx[chunk * 3 + a]`.
-    pub(crate) gx: Vec<Lanes>,
+    pub(super) gx: Vec<Lanes>,
     /// `gy[b * side + row]`.
-    pub(crate) gy: Vec<f64>,
+    pub(super) gy: Vec<f64>,
 }
 
 impl FixedTable {
-    pub(crate) fn new(grid: &Grid) -> Self {
+    pub(super) fn new(grid: &Grid) -> Self {
         // Centre 3b + a is (x_a, y_b).
         let field = Field::new(&Rbf { centres: FIXED_CENTRES.to_vec() }, grid, None);
         let columns = |chunk| (0..FIXED_SIDE).map(move |a| (a, chunk));
@@ -111,13 +111,13 @@ impl FixedTable {
         Self { gx, gy }
     }
 
-    pub(crate) fn side(&self) -> usize {
+    pub(super) fn side(&self) -> usize {
         self.gy.len() / FIXED_SIDE
     }
 }
 
 /// Vectors per row.
-pub(crate) fn chunks(side: usize) -> usize {
+pub(super) fn chunks(side: usize) -> usize {
     side.div_ceil(LANES)
 }
 

@@ -1,12 +1,12 @@
 //! Fisher information of the likelihood: how fast it falls away from a weight vector, in every direction.
 
-use super::Likelihood;
+use super::PlacementLikelihood;
 use super::cells::{FIXED_SIDE, LANES, Lanes};
 use super::kernel::{Scratch, exponentials, fixed_rewards, sum_lanes};
 
-/// Σ β_d² Cov_d φ, row-major and symmetric.
+/// Σ f_d² Cov_d φ, row-major and symmetric.
 #[inline(always)]
-pub(super) fn information(likelihood: &Likelihood, w: &[f64], scratch: &mut Scratch) -> Vec<f64> {
+pub(super) fn information(likelihood: &PlacementLikelihood, w: &[f64], scratch: &mut Scratch) -> Vec<f64> {
     let n = likelihood.n_features;
     let mut information = vec![0.0; n * n];
     fixed_rewards(likelihood, w, scratch);
@@ -53,7 +53,7 @@ pub(super) fn information(likelihood: &Likelihood, w: &[f64], scratch: &mut Scra
         for i in 0..n {
             for j in 0..=i {
                 let covariance = sum_lanes(&second[i * n + j]) / sum - mean[i] * mean[j];
-                information[i * n + j] += cells.beta * cells.beta * covariance;
+                information[i * n + j] += cells.factor * cells.factor * covariance;
             }
         }
     }

@@ -3,11 +3,11 @@
 //! Everything is `inline(always)` so that it is compiled anew inside each `pulp` dispatch for that machine's vectors.
 //! Additions happen in the same order for every vector width.
 
-use crate::settings::GRID_SIDE_RANGE;
+use super::GRID_SIDE_RANGE;
 use pulp::Simd;
 use scene::exp;
 
-use super::Likelihood;
+use super::PlacementLikelihood;
 use super::cells::{Cells, FIXED_SIDE, LANES, Lanes, chunks};
 
 /// With rewards known to lie within this many nats of 0, no maximum has to be found before exponentials are taken.
@@ -21,12 +21,12 @@ const MAX_SIDE: usize = *GRID_SIDE_RANGE.end();
 
 /// Buffers of one thread of evaluation.
 #[derive(Debug, Clone)]
-pub(crate) struct Scratch {
+pub struct Scratch {
     /// Rewards of the fixed centres, per cell.
     pub(super) fixed: Vec<Lanes>,
     /// Exponentials per cell.
     pub(super) cells: Vec<Lanes>,
-    /// Σ_d β_d p_d per cell.
+    /// Σ_d f_d p_d per cell.
     pub(super) visits: Vec<Lanes>,
     /// β w_k gy_k of one row.
     coefficients: Vec<f64>,
@@ -40,7 +40,7 @@ impl Scratch {
 }
 
 #[inline(always)]
-pub(super) fn value(likelihood: &Likelihood, w: &[f64], scratch: &mut Scratch) -> f64 {
+pub(super) fn value(likelihood: &PlacementLikelihood, w: &[f64], scratch: &mut Scratch) -> f64 {
     fixed_rewards(likelihood, w, scratch);
     let mut value = inner(&likelihood.shown, w);
     for cells in &likelihood.cells {
@@ -53,7 +53,7 @@ pub(super) fn value(likelihood: &Likelihood, w: &[f64], scratch: &mut Scratch) -
 #[inline(always)]
 pub(super) fn value_and_gradient<S: Simd>(
     simd: S,
-    likelihood: &Likelihood,
+    likelihood: &PlacementLikelihood,
     w: &[f64],
     gradient: &mut [f64],
     scratch: &mut Scratch,
@@ -67,7 +67,7 @@ pub(super) fn value_and_gradient<S: Simd>(
     for cells in &likelihood.cells {
         let (log_sum, sum) = exponentials(cells, w, scratch);
         value -= log_sum - cells.log_n_free;
-        let scale = cells.beta / sum;
+        let scale = cells.factor / sum;
         for (visits, p) in scratch.visits.as_flattened_mut().iter_mut().zip(scratch.cells.as_flattened()) {
             *visits += scale * p;
         }
@@ -86,7 +86,7 @@ pub(super) fn value_and_gradient<S: Simd>(
 
 /// R of the fixed centres for every cell, into `scratch.fixed`.
 #[inline(always)]
-pub(super) fn fixed_rewards(likelihood: &Likelihood, w: &[f64], scratch: &mut Scratch) {
+pub(super) fn fixed_rewards(likelihood: &PlacementLikelihood, w: &[f64], scratch: &mut Scratch) {
     let w = &w[likelihood.n_features - FIXED_SIDE * FIXED_SIDE..];
     let fixed = &likelihood.fixed;
     let row_length = fixed.gx.len() / FIXED_SIDE;
@@ -107,7 +107,7 @@ pub(super) fn fixed_rewards(likelihood: &Likelihood, w: &[f64], scratch: &mut Sc
 pub(super) fn exponentials(cells: &Cells, w: &[f64], scratch: &mut Scratch) -> (f64, f64) {
     exponents(cells, w, scratch);
     // Every feature lies in [0, 1], so |β R| ≤ β ‖w‖₁.
-    let reach = cells.beta * w.iter().map(|w| w.abs()).sum::<f64>();
+    let reach = cells.factor * w.iter().map(|w| w.abs()).sum::<f64>();
     let shift = if reach <= SAFE_RANGE { 0.0 } else { largest(&scratch.cells) };
     for cell in scratch.cells.as_flattened_mut() {
         let exponent = *cell - shift;
@@ -132,12 +132,12 @@ fn exponents(cells: &Cells, w: &[f64], scratch: &mut Scratch) {
     let tables = scratch.fixed.chunks_exact(cells.row_length).zip(cells.log_weight.chunks_exact(cells.row_length));
     for (row, (out, (fixed, log_weight))) in rows.zip(tables).enumerate() {
         for (k, c) in coefficients.iter_mut().enumerate() {
-            *c = cells.beta * w[k] * cells.gy[k * side + row];
+            *c = cells.factor * w[k] * cells.gy[k * side + row];
         }
         for (chunk, (out, (fixed, log_weight))) in out.iter_mut().zip(fixed.iter().zip(log_weight)).enumerate() {
             let mut t = *log_weight;
             for lane in 0..LANES {
-                t[lane] += cells.beta * fixed[lane];
+                t[lane] += cells.factor * fixed[lane];
             }
             for (c, gx) in coefficients.iter().zip(&cells.gx[chunk * n..(chunk + 1) * n]) {
                 for lane in 0..LANES {

@@ -1,30 +1,38 @@
 //! The likelihood of placements under a softmax over the table (method notes section 5):
-//! log P(x_d | C_d, w) = β_d R_w(x_d) − log mean over the free cells c of exp(β_d R_w(c)).
+//! log P(x_d | C_d, θ) = f_d R_θ(x_d) − log mean over the free cells c of exp(f_d R_θ(c)), with θ = β w and f_d the factor of
+//! demonstration d.
 
 mod cells;
 mod curvature;
+mod demonstration;
 mod kernel;
 
-pub(crate) use cells::Cells;
+use std::ops::RangeInclusive;
+
+use cells::Cells;
 pub use cells::Placement;
-pub(crate) use kernel::Scratch;
+pub use demonstration::{Confidence, Demonstration, EvidenceError, Lesson, MAX_DEMONSTRATIONS};
+pub use kernel::Scratch;
 
 use cells::FixedTable;
 use pulp::{Arch, Simd, WithSimd};
 use scene::Grid;
 
+/// Cells per axis of a grid that a likelihood can be normalised on.
+pub const GRID_SIDE_RANGE: RangeInclusive<usize> = 4..=256;
+
 /// Log-likelihood of the placements of a lesson as a function of the weights. A concave function of w.
 #[derive(Debug, Clone)]
-pub struct Likelihood {
+pub struct PlacementLikelihood {
     n_features: usize,
     fixed: FixedTable,
     cells: Vec<Cells>,
-    /// Σ β_d φ(x_d).
+    /// Σ f_d φ(x_d).
     shown: Vec<f64>,
     arch: Arch,
 }
 
-impl Likelihood {
+impl PlacementLikelihood {
     /// The likelihood of `placements` normalised over the points of `grid`; `n_features` counts the nine fixed centres,
     /// and every scene has the other `n_features − 9` as objects.
     ///
@@ -34,7 +42,7 @@ impl Likelihood {
         let mut shown = vec![0.0; n_features];
         for placement in placements {
             for (shown, feature) in shown.iter_mut().zip(placement.features()) {
-                *shown += placement.beta * feature;
+                *shown += placement.factor * feature;
             }
         }
         Self { n_features, fixed: FixedTable::new(grid), cells, shown, arch: Arch::new() }
@@ -42,7 +50,7 @@ impl Likelihood {
 
     /// The same likelihood normalised over cells `factor` times as wide, each counted by how much of it is free. `None`
     /// where `factor` does not divide the side of the grid, which must be one of midpoints.
-    pub(crate) fn coarsened(&self, placements: &[Placement<'_>], grid: &Grid, factor: usize) -> Option<Self> {
+    pub fn coarsened(&self, placements: &[Placement<'_>], grid: &Grid, factor: usize) -> Option<Self> {
         if !grid.side().is_multiple_of(factor) {
             return None;
         }
@@ -71,25 +79,28 @@ impl Likelihood {
         self.value_with(w, &mut self.scratch())
     }
 
-    /// log P(placements | w); its gradient Σ β_d (φ(x_d) − E_d φ) goes to `gradient`.
+    /// log P(placements | w); its gradient Σ f_d (φ(x_d) − E_d φ) goes to `gradient`.
     pub fn value_and_gradient(&self, w: &[f64], gradient: &mut [f64]) -> f64 {
         self.value_and_gradient_with(w, gradient, &mut self.scratch())
     }
 
-    pub(crate) fn scratch(&self) -> Scratch {
+    /// Buffers of one thread of evaluation.
+    pub fn scratch(&self) -> Scratch {
         Scratch::new(self.fixed.side(), self.n_features)
     }
 
-    pub(crate) fn value_with(&self, w: &[f64], scratch: &mut Scratch) -> f64 {
+    /// [`Self::value`] with buffers.
+    pub fn value_with(&self, w: &[f64], scratch: &mut Scratch) -> f64 {
         self.arch.dispatch(Value { likelihood: self, w, scratch })
     }
 
-    pub(crate) fn value_and_gradient_with(&self, w: &[f64], gradient: &mut [f64], scratch: &mut Scratch) -> f64 {
+    /// [`Self::value_and_gradient`] with buffers.
+    pub fn value_and_gradient_with(&self, w: &[f64], gradient: &mut [f64], scratch: &mut Scratch) -> f64 {
         self.arch.dispatch(ValueAndGradient { likelihood: self, w, gradient, scratch })
     }
 
-    /// Fisher information −∇² = Σ β_d² Cov_d φ, row-major and symmetric.
-    pub(crate) fn information(&self, w: &[f64], scratch: &mut Scratch) -> Vec<f64> {
+    /// Fisher information −∇² = Σ f_d² Cov_d φ, row-major and symmetric.
+    pub fn information(&self, w: &[f64], scratch: &mut Scratch) -> Vec<f64> {
         self.arch.dispatch(Information { likelihood: self, w, scratch })
     }
 }
@@ -97,7 +108,7 @@ impl Likelihood {
 // Named operations, because a closure would not be inlined into the dispatch and miss the machine's vectors.
 
 struct Value<'a> {
-    likelihood: &'a Likelihood,
+    likelihood: &'a PlacementLikelihood,
     w: &'a [f64],
     scratch: &'a mut Scratch,
 }
@@ -112,7 +123,7 @@ impl WithSimd for Value<'_> {
 }
 
 struct ValueAndGradient<'a> {
-    likelihood: &'a Likelihood,
+    likelihood: &'a PlacementLikelihood,
     w: &'a [f64],
     gradient: &'a mut [f64],
     scratch: &'a mut Scratch,
@@ -128,7 +139,7 @@ impl WithSimd for ValueAndGradient<'_> {
 }
 
 struct Information<'a> {
-    likelihood: &'a Likelihood,
+    likelihood: &'a PlacementLikelihood,
     w: &'a [f64],
     scratch: &'a mut Scratch,
 }
@@ -144,7 +155,7 @@ impl WithSimd for Information<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Likelihood, Placement};
+    use super::{PlacementLikelihood, Placement};
     use pulp::Arch;
     use scene::{Grid, Object, Point, Scene, Shape};
 
@@ -175,10 +186,10 @@ mod tests {
     fn every_vector_width_gives_the_same_bits() {
         let scene = scene();
         for (beta, side) in [(100.0, 64), (3000.0, 16), (5.0, 13)] {
-            let placement = Placement { scene: &scene, at: Point::new(0.4, 0.5), beta, masked: true };
-            let widest = Likelihood::new(11, &[placement, placement], &Grid::midpoints(side));
-            let scalar = Likelihood { arch: Arch::Scalar, ..widest.clone() };
-            let of = |likelihood: &Likelihood| {
+            let placement = Placement { scene: &scene, at: Point::new(0.4, 0.5), factor: beta, masked: true };
+            let widest = PlacementLikelihood::new(11, &[placement, placement], &Grid::midpoints(side));
+            let scalar = PlacementLikelihood { arch: Arch::Scalar, ..widest.clone() };
+            let of = |likelihood: &PlacementLikelihood| {
                 let mut gradient = vec![0.0; 11];
                 let value = likelihood.value_and_gradient(&weights(), &mut gradient);
                 let information = likelihood.information(&weights(), &mut likelihood.scratch());
@@ -191,8 +202,8 @@ mod tests {
     #[test]
     fn information_is_minus_the_second_derivative() {
         let scene = scene();
-        let placement = Placement { scene: &scene, at: Point::new(0.4, 0.5), beta: 30.0, masked: true };
-        let likelihood = Likelihood::new(11, &[placement], &Grid::midpoints(24));
+        let placement = Placement { scene: &scene, at: Point::new(0.4, 0.5), factor: 30.0, masked: true };
+        let likelihood = PlacementLikelihood::new(11, &[placement], &Grid::midpoints(24));
         let information = likelihood.information(&weights(), &mut likelihood.scratch());
         let gradient = |k: usize, by: f64| {
             let (mut w, mut gradient) = (weights(), vec![0.0; 11]);
@@ -213,9 +224,9 @@ mod tests {
     #[test]
     fn wide_cells_come_close_and_count_what_is_free() {
         let scene = scene();
-        let placement = [Placement { scene: &scene, at: Point::new(0.4, 0.5), beta: 100.0, masked: true }];
+        let placement = [Placement { scene: &scene, at: Point::new(0.4, 0.5), factor: 100.0, masked: true }];
         let grid = Grid::midpoints(64);
-        let exact = Likelihood::new(11, &placement, &grid);
+        let exact = PlacementLikelihood::new(11, &placement, &grid);
         let wide = exact.coarsened(&placement, &grid, 4).expect("4 divides 64");
         assert_eq!(wide.fixed.side(), 16);
         // A hill in the middle of the table, as in a lesson.

@@ -1,7 +1,7 @@
 //! Scenes and random numbers shared by the tests.
 #![allow(dead_code)]
 
-use posterior::{Confidence, Demonstration, Placement};
+use likelihood::placements::{Confidence, Demonstration, Placement};
 use scene::{Object, Point, Scene, Shape};
 
 /// SplitMix64.
@@ -80,5 +80,5 @@ pub fn lesson(n: usize, n_objects: usize, w: &[f64], seed: u64) -> Vec<Demonstra
 }
 
 pub fn placements(demonstrations: &[Demonstration], beta: f64) -> Vec<Placement<'_>> {
-    demonstrations.iter().map(|d| Placement { scene: &d.scene, at: d.placement, beta, masked: true }).collect()
+    demonstrations.iter().map(|d| Placement { scene: &d.scene, at: d.placement, factor: beta, masked: true }).collect()
 }

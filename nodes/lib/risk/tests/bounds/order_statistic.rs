@@ -1,37 +1,10 @@
 //! The bound keeps its promise on autocorrelated chains, where the printed rule does not; and its outcomes.
 
-use posterior::diagnostics::SeriesError;
-use posterior::normal_quantile;
+use diagnostics::{SeriesError, normal_quantile};
 use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 use risk::{Outcome, RiskError, Tail, lower_bound, quantile, upper_bound, value_at_risk};
 
-struct Normal(u64);
-
-impl Normal {
-    fn next(&mut self) -> f64 {
-        // SplitMix64.
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        normal_quantile(((z >> 12) as f64 + 0.5) / (1_u64 << 52) as f64)
-    }
-}
-
-/// Stationary autoregressive chains with standard normal marginals.
-fn chains(seed: u64, n_chains: usize, per_chain: usize, rho: f64) -> Vec<f64> {
-    let mut normal = Normal(seed << 20);
-    let mut draws = Vec::with_capacity(n_chains * per_chain);
-    for _ in 0..n_chains {
-        let mut x = normal.next();
-        for _ in 0..per_chain {
-            draws.push(x);
-            x = rho * x + (1.0 - rho * rho).sqrt() * normal.next();
-        }
-    }
-    draws
-}
+use crate::draws::chains;
 
 #[test]
 fn covers_on_autocorrelated_chains_where_the_printed_rule_fails() {
