@@ -12,11 +12,15 @@ use std::process::ExitCode;
 const COMMIT: &str = env!("APPRENTICE_COMMIT");
 
 /// Commands that are no nodes: name and purpose.
-const COMMANDS: [(&str, &str); 5] = [
+const COMMANDS: [(&str, &str); 9] = [
     ("bringup", "Starts, watches, restarts and stops the nodes of a lesson; what `apprentice` alone does"),
     ("replay", "Computes a recorded session again, and compares every bit with --verify"),
     ("bag", "What is in a bag (info), and making a broken one whole (recover)"),
     ("check", "Reads parameter files as every node would"),
+    ("infer", "The posterior of reward weights given evidence in files: preferences, demonstrations, critiques"),
+    ("likelihood", "How probable evidence in files is under given weights"),
+    ("bound", "A high-confidence bound on a risk measure of losses in a file"),
+    ("evaluate", "Policies judged under posterior draws in a file: losses, bounds, ranking"),
     ("help", "This text; `apprentice --help` has the flags of a lesson"),
 ];
 
@@ -42,6 +46,10 @@ fn dispatch(command: &str, rest: &[String]) -> ExitCode {
         "replay" => parsed("apprentice replay", rest, replay::run),
         "bag" => parsed("apprentice bag", rest, bag::run),
         "check" => parsed("apprentice check", rest, check::run),
+        "infer" => parsed("apprentice infer", rest, offline::infer::run),
+        "likelihood" => parsed("apprentice likelihood", rest, offline::likelihood::run),
+        "bound" => parsed("apprentice bound", rest, offline::bound::run),
+        "evaluate" => parsed("apprentice evaluate", rest, offline::evaluate::run),
         "help" => {
             print!("{}", overview());
             ExitCode::SUCCESS

@@ -19,7 +19,7 @@ const TRAJECTORY: f64 = 1.7;
 /// Trajectories last between 1 − this and 1 + this times [`TRAJECTORY`].
 const JITTER: f64 = 0.3;
 /// Leapfrog steps of a trajectory, at most.
-const MAX_STEPS: usize = 64;
+pub(crate) const MAX_STEPS: usize = 64;
 /// A trajectory whose energy strays by more than this many nats is given up: it would be rejected anyway.
 const DIVERGED: f64 = 1000.0;
 /// Share of the jumps that go to a draw from the prior, times the number of coordinates: with many of them none is accepted.
@@ -110,10 +110,10 @@ impl<D: Density> Chain<D> {
     }
 
     /// One transition with the given step size, in coordinates scaled by the lower factor `scale` of a covariance.
-    /// Returns the probability with which the move was accepted.
-    pub(crate) fn advance(&mut self, step_size: f64, scale: &[f64], acceptance: Acceptance) -> f64 {
+    /// A trajectory takes at most `max_steps` steps. Returns the probability with which the move was accepted.
+    pub(crate) fn advance(&mut self, step_size: f64, scale: &[f64], acceptance: Acceptance, max_steps: usize) -> f64 {
         let length = TRAJECTORY * (1.0 + JITTER * (2.0 * uniform(&mut self.generator) - 1.0));
-        let n_steps = libm::ceil(length / step_size).clamp(1.0, MAX_STEPS as f64);
+        let n_steps = libm::ceil(length / step_size).clamp(1.0, max_steps as f64);
         let step_size = step_size.min(length / n_steps);
         for p in &mut self.proposal.momentum {
             *p = standard_normal(&mut self.generator);
@@ -135,8 +135,7 @@ impl<D: Density> Chain<D> {
             self.kick(0.5 * step_size);
             last = 0.5 * dot(&self.proposal.momentum, &self.proposal.momentum) - coarse.log_density;
             highest = highest.max(last);
-            // Also true where it left the numbers altogether.
-            if !(last - energy <= DIVERGED) {
+            if last.is_nan() || last - energy > DIVERGED {
                 return 0.0;
             }
         }

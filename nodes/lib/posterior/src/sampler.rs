@@ -4,7 +4,7 @@ use crate::collapsed_density::CollapsedDensity;
 use crate::density::Density;
 use crate::draws::{BetaDraws, Kept, Warm};
 use crate::full_density::FullDensity;
-use crate::hmc::{Acceptance, Chain, MAX_STARTS};
+use crate::hmc::{Acceptance, Chain, MAX_STARTS, MAX_STEPS};
 use crate::map::most_probable;
 use crate::random::chain_generator;
 use crate::warmup::{DualAveraging, pooled_scale};
@@ -126,10 +126,14 @@ fn sample<D: Density>(
         Some(warm) => warm.scale.clone(),
         None => (0..n * n).map(|i| if i % (n + 1) == 0 { 1.0 } else { 0.0 }).collect(),
     };
-    let rounds: &[usize] = if warm.is_some() { &[2, 3] } else { &[4, 4, 8] };
-    for twentieths in rounds {
+    // Without a scale trajectories would be long for what they gain, so the first are kept short.
+    let rounds: &[(usize, usize)] =
+        if warm.is_some() { &[(2, MAX_STEPS), (3, MAX_STEPS)] } else { &[(4, 16), (4, 16), (8, 32)] };
+    for (twentieths, max_steps) in rounds {
         let length = run.warmup * twentieths / 20;
-        in_parallel(&mut runners, run.threads, |runner| runner.explore(length, &scale, Acceptance::Coarse));
+        in_parallel(&mut runners, run.threads, |runner| {
+            runner.explore(length, &scale, Acceptance::Coarse, *max_steps);
+        });
         let positions: Vec<Vec<f64>> = runners.iter_mut().map(|r| std::mem::take(&mut r.positions)).collect();
         // Without any movement there is no covariance: keep the old one and let the diagnostics tell.
         scale = pooled_scale(&positions, n).unwrap_or(scale);
@@ -139,7 +143,7 @@ fn sample<D: Density>(
     }
     in_parallel(&mut runners, run.threads, |runner| {
         runner.chain.refresh_exact();
-        runner.explore(run.warmup / 5, &scale, Acceptance::Exact);
+        runner.explore(run.warmup / 5, &scale, Acceptance::Exact, MAX_STEPS);
     });
     // One step size for all: chains that differ in it would differ in what they can reach.
     let log_steps: f64 = runners.iter().map(|r| libm::log(r.step.averaged())).sum();
@@ -153,9 +157,9 @@ fn sample<D: Density>(
 
 impl<D: Density> Runner<D> {
     /// Warm-up: adapts the step size, and remembers positions of the later half.
-    fn explore(&mut self, length: usize, scale: &[f64], acceptance: Acceptance) {
+    fn explore(&mut self, length: usize, scale: &[f64], acceptance: Acceptance, max_steps: usize) {
         for i in 0..length {
-            let accepted = self.chain.advance(self.step.step_size(), scale, acceptance);
+            let accepted = self.chain.advance(self.step.step_size(), scale, acceptance, max_steps);
             self.step.update(accepted);
             if i >= length / 2 {
                 self.positions.extend_from_slice(&self.chain.z);
@@ -166,7 +170,7 @@ impl<D: Density> Runner<D> {
     fn keep(&mut self, length: usize, step_size: f64, scale: &[f64]) {
         let n_jumps = if self.chain.force_is_exact() { JUMPS_EXACT } else { JUMPS_COARSE };
         for _ in 0..length {
-            self.acceptance += self.chain.advance(step_size, scale, Acceptance::Exact);
+            self.acceptance += self.chain.advance(step_size, scale, Acceptance::Exact, MAX_STEPS);
             for _ in 0..n_jumps {
                 self.chain.jump(scale);
             }

@@ -1,0 +1,16 @@
+//! The mathematics on CSV and JSON files, without ROS: `apprentice infer`, `likelihood`, `bound` and `evaluate`.
+//!
+//! Each command is a set of flags and a function that runs it: files in, one answer out, on standard output. The formats stand
+//! in `README.md` beside this crate.
+
+mod answer;
+mod clock;
+mod commands;
+mod error;
+mod evidence;
+mod files;
+mod judgement;
+mod sampling;
+
+pub use commands::{bound, evaluate, infer, likelihood};
+pub use error::OfflineError;

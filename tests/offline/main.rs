@@ -1,0 +1,11 @@
+//! The commands without ROS, as a person runs them: files in, an answer out.
+
+mod answers;
+mod bad_input;
+mod bounds;
+mod command;
+mod documentation;
+mod evidence;
+mod golden;
+mod interrupted;
+mod sameness;
