@@ -213,3 +213,19 @@ fn a_long_horizon() {
         check_optimal(&mdp, &w, optimum, 1e-9);
     }
 }
+
+/// Values spread slowly through a large grid: the residual of the first rounds stands still far from the optimum.
+#[test]
+fn a_fresh_solver_reaches_the_optimum_of_a_large_grid_at_once() {
+    for (seed, gamma) in [(1, 0.95), (2, 0.95), (3, 0.98)] {
+        let mut rng = rng(seed);
+        let mdp = GridWorld { slip: 0.15, gamma, ..GridWorld::random(100, 100, 8, &mut rng) }.mdp().unwrap();
+        let w = mdp::random::l1_sphere(8, &mut rng);
+        let mut solver = Solver::new(&mdp);
+        let optimum = solver.solve(&w);
+        let (first, error) = (optimum.value(), optimum.error_bound());
+        assert!(error < 1e-9, "gamma {gamma}: {first} with an error of up to {error}");
+        let second = solver.solve(&w).value();
+        assert!((first - second).abs() < 1e-9, "gamma {gamma}: {first}, then {second}");
+    }
+}

@@ -11,8 +11,13 @@ use crate::solver::tables::Tables;
 
 /// Share of the residual that sweeps leave before actions are chosen again.
 const SHARE: f64 = 0.05;
-/// Rounds without a smaller residual after which only rounding is left.
+/// Rounds without a smaller residual after which only rounding is left, once the residual is within [`NEAR_ROUNDING`] of it.
+/// Far from it the residual may stand still for long, while values spread through the process.
 const PATIENCE: usize = 10;
+/// Multiples of the residual that is wanted.
+const NEAR_ROUNDING: f64 = 1e4;
+/// Rounds, at most: the values that are left then are judged by their error bound.
+const MAX_ROUNDS: usize = 5000;
 /// Sweeps between two choices of actions, at most.
 const MAX_SWEEPS: usize = 200;
 
@@ -55,7 +60,7 @@ impl Sweeping {
         }
         let (mut least, mut since) = (f64::INFINITY, 0);
         let mut layout: Option<(Sweeps, Vec<f64>)> = None;
-        loop {
+        for _ in 0..MAX_ROUNDS {
             tables.backup(&working.rewards, values, q);
             working.greedy.set(q, tolerances.tie);
             let residual = largest_difference(&working.greedy.best, values);
@@ -64,7 +69,7 @@ impl Sweeping {
             } else {
                 since += 1;
             }
-            if residual <= enough || since > PATIENCE {
+            if residual <= enough || (since > PATIENCE && residual <= NEAR_ROUNDING * enough.max(f64::MIN_POSITIVE)) {
                 break;
             }
             if self.improve(tables, working, q) || layout.is_none() {
