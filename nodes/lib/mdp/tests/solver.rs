@@ -219,8 +219,8 @@ fn a_long_horizon() {
 fn a_fresh_solver_reaches_the_optimum_of_a_large_grid_at_once() {
     for (seed, gamma) in [(1, 0.95), (2, 0.95), (3, 0.98)] {
         let mut rng = rng(seed);
-        let mdp = GridWorld { slip: 0.15, gamma, ..GridWorld::random(100, 100, 8, &mut rng) }.mdp().unwrap();
-        let w = mdp::random::l1_sphere(8, &mut rng);
+        let mdp = GridWorld { gamma, ..GridWorld::random(100, 100, 8, &mut rng) }.mdp().unwrap();
+        let w = random::l1_sphere(8, &mut rng);
         let mut solver = Solver::new(&mdp);
         let optimum = solver.solve(&w);
         let (first, error) = (optimum.value(), optimum.error_bound());
