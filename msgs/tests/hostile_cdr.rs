@@ -2,7 +2,9 @@
 
 mod support;
 
-use apprentice_msgs::msg::{EvidenceLog, EvidenceRecord, Posterior, TableScene};
+use apprentice_msgs::msg::{
+    EvidenceLog, EvidenceRecord, PolicySet, Posterior, TableScene, TabularWorld, TrajectoryPreference,
+};
 use apprentice_msgs::rcl_interfaces::ParameterValue;
 use apprentice_msgs::visualization_msgs::InteractiveMarkerUpdate;
 use apprentice_msgs::{CdrError, Message, from_cdr, std_msgs, to_cdr, trajectory_msgs};
@@ -13,6 +15,9 @@ use support::filled;
 fn read_all(bytes: &[u8]) {
     let _ = from_cdr::<EvidenceLog>(bytes);
     let _ = from_cdr::<Posterior>(bytes);
+    let _ = from_cdr::<TabularWorld>(bytes);
+    let _ = from_cdr::<TrajectoryPreference>(bytes);
+    let _ = from_cdr::<PolicySet>(bytes);
     let _ = from_cdr::<ParameterValue>(bytes);
     let _ = from_cdr::<InteractiveMarkerUpdate>(bytes);
     let _ = from_cdr::<trajectory_msgs::JointTrajectory>(bytes);
@@ -115,9 +120,11 @@ proptest! {
     fn damaged_messages_never_panic(
         log in mutated::<EvidenceLog>(),
         posterior in mutated::<Posterior>(),
+        world in mutated::<TabularWorld>(),
+        policies in mutated::<PolicySet>(),
         markers in mutated::<InteractiveMarkerUpdate>(),
     ) {
-        for bytes in [log, posterior, markers] {
+        for bytes in [log, posterior, world, policies, markers] {
             read_all(&bytes);
         }
     }

@@ -32,7 +32,7 @@ fn journal(suite: &Suite) -> Vec<String> {
         Entry::Record(record) => {
             record.demonstration.first().map(|d| d.id.clone()).or(record.response.first().map(|r| r.id.clone()))
         }
-        Entry::Task(_) => None,
+        Entry::Task(_) | Entry::World(_) => None,
     };
     entries.into_iter().filter_map(id).collect()
 }

@@ -10,5 +10,6 @@ mod python;
 mod recorded;
 mod replayed;
 mod suite;
+mod tabular;
 mod taught;
 mod whole_loop;

@@ -2,13 +2,10 @@
 
 use crate::python;
 use crate::recorded::Recorded;
-use crate::suite::Suite;
+use crate::suite::{LOOPBACK, Suite};
 use apprentice_msgs::msg::{EvidenceReceipt, PerformanceBounds, PlacementQuery, Posterior};
 use sha2::{Digest, Sha256};
 use std::time::Duration;
-
-/// Cyclone DDS on loopback, where the lesson is.
-const LOOPBACK: &str = "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces></General></Domain></CycloneDDS>";
 
 /// Nothing is said again within the test, so that a late joiner has only what DDS keeps for it.
 const SAY_ONCE: &str = "/**:\n  reward_posterior:\n    ros__parameters:\n      republish_period_s: 3600.0\n  performance_bounds:\n    ros__parameters:\n      republish_period_s: 3600.0\n";

@@ -48,11 +48,5 @@ impl Recorded {
 
 /// The ids of a log's events, in order.
 pub fn ids(log: &EvidenceLog) -> Vec<String> {
-    let mut ids = Vec::new();
-    for record in &log.records {
-        ids.extend(record.demonstration.iter().map(|d| d.id.clone()));
-        ids.extend(record.retraction.iter().map(|r| r.id.clone()));
-        ids.extend(record.response.iter().map(|r| r.id.clone()));
-    }
-    ids
+    log.records.iter().map(|record| exchange::record_id(record).to_owned()).collect()
 }

@@ -12,6 +12,9 @@ use std::time::{Duration, Instant};
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 static STARTED: AtomicU32 = AtomicU32::new(0);
 
+/// Cyclone DDS on loopback, where lessons are.
+pub const LOOPBACK: &str = "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces></General></Domain></CycloneDDS>";
+
 /// How long a poll waits before it looks again.
 const POLL: Duration = Duration::from_millis(20);
 

@@ -1,8 +1,9 @@
 //! A lesson on a graph within this process: the nodes on threads, and the test as one more node that listens and speaks.
 
+use apprentice_msgs::Message;
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceReceipt, PerformanceBounds, PlacementDemonstration, PlacementQuery, Posterior, QueryResponse,
-    Retraction, TableScene,
+    EvidenceLog, EvidenceReceipt, PerformanceBounds, PlacementDemonstration, PlacementQuery, PolicyBounds, Posterior,
+    PosteriorPreview, QueryResponse, Retraction, TableScene,
 };
 use bus::{
     Arguments, Bus, Graph, MemoryGraph, Next, NodeError, NodeSettings, ParameterSpec, Publisher, Qos, TopicInfo,
@@ -47,6 +48,8 @@ pub enum Heard {
     Posterior(Box<Posterior>),
     Bounds(Box<PerformanceBounds>),
     Query(Box<PlacementQuery>),
+    Preview(Box<PosteriorPreview>),
+    PolicyBounds(Box<PolicyBounds>),
 }
 
 /// A lesson on a graph of its own. Dropping it ends the nodes.
@@ -88,6 +91,8 @@ impl Lesson {
         bus.subscribe("posterior", Qos::State, |m| Heard::Posterior(Box::new(m))).expect("a good name");
         bus.subscribe("bounds", Qos::State, |m| Heard::Bounds(Box::new(m))).expect("a good name");
         bus.subscribe("query", Qos::State, |m| Heard::Query(Box::new(m))).expect("a good name");
+        bus.subscribe("posterior_preview", Qos::State, |m| Heard::Preview(Box::new(m))).expect("a good name");
+        bus.subscribe("policy_bounds", Qos::State, |m| Heard::PolicyBounds(Box::new(m))).expect("a good name");
         Lesson {
             graph,
             bus,
@@ -137,6 +142,11 @@ impl Lesson {
         self.start("placement_planner", placement_planner::run, &[]);
         self.start("demonstrator", demonstrator::run, &["response_delay_s:=3600.0"]);
         self.start("operator_ui", operator_ui::run, &["port:=0"]);
+    }
+
+    /// One more topic that the test speaks on.
+    pub fn publisher<M: Message>(&mut self, topic: &str, qos: Qos) -> Publisher<M> {
+        self.bus.publisher(topic, qos).expect("a good name")
     }
 
     /// Every topic of the graph.
@@ -192,6 +202,29 @@ impl Lesson {
     pub fn posterior(&mut self, revision: u64) -> Posterior {
         self.wait(&format!("posterior {revision}"), |heard| match heard {
             Heard::Posterior(posterior) if posterior.revision == revision => Some((**posterior).clone()),
+            _ => None,
+        })
+    }
+
+    /// What became of evidence that must be accepted.
+    pub fn accepted(&mut self, id: &str) -> u64 {
+        let receipt = self.receipt(id);
+        assert_eq!(receipt.outcome, EvidenceReceipt::ACCEPTED, "{id}: {}", receipt.reason);
+        receipt.revision
+    }
+
+    /// The bounds on the policies of a set under the posterior of a revision.
+    pub fn policy_bounds(&mut self, revision: u64, set_number: u64) -> PolicyBounds {
+        self.wait(&format!("bounds {revision} on set {set_number}"), |heard| match heard {
+            Heard::PolicyBounds(b) if (b.revision, b.set_number) == (revision, set_number) => Some((**b).clone()),
+            _ => None,
+        })
+    }
+
+    /// The preview of a revision.
+    pub fn preview(&mut self, revision: u64) -> PosteriorPreview {
+        self.wait(&format!("preview {revision}"), |heard| match heard {
+            Heard::Preview(preview) if preview.revision == revision => Some((**preview).clone()),
             _ => None,
         })
     }

@@ -1,4 +1,5 @@
-//! The nodes on a graph within one process: undo to the bit, and what they make of bad evidence and damaged bytes.
+//! The nodes on a graph within one process: every kind of evidence, undo to the bit, policies judged, and what they make of bad
+//! evidence and damaged bytes.
 
 mod bad_evidence;
 mod evidence;
@@ -6,4 +7,7 @@ mod graph;
 mod graph_file;
 mod log_lines;
 mod malformed;
+mod policies;
+mod row;
+mod trajectories;
 mod undo;

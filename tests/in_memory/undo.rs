@@ -82,7 +82,11 @@ fn node() -> RewardPosterior {
 fn take(node: &mut RewardPosterior, event: Event) -> (Option<EvidenceReceipt>, Option<Posterior>) {
     let (mut receipt, mut posterior) = (None, None);
     let mut outputs = node.step(Time::default(), event);
-    outputs.extend(node.step(Time::default(), Event::Recompute));
+    // A preview comes first, and asks to be called again.
+    while outputs.iter().filter(|output| matches!(output, Output::Recompute)).count() > 0 {
+        outputs.retain(|output| !matches!(output, Output::Recompute));
+        outputs.extend(node.step(Time::default(), Event::Recompute));
+    }
     for output in outputs {
         match output {
             Output::Receipt(message) => receipt = Some(message),

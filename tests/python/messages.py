@@ -120,6 +120,146 @@ class EvidenceReceipt(IdlStruct, typename="apprentice_msgs::msg::dds_::EvidenceR
 
 @dataclass
 @final
+class Retraction(IdlStruct, typename="apprentice_msgs::msg::dds_::Retraction_"):
+    header: Header = field(default_factory=Header)
+    id: str = ""
+    evidence_id: str = ""
+    source: str = ""
+    reason: str = ""
+
+
+@dataclass
+@final
+class TabularWorld(IdlStruct, typename="apprentice_msgs::msg::dds_::TabularWorld_"):
+    header: Header = field(default_factory=Header)
+    id: str = ""
+    gamma: float64 = 0.0
+    n_states: uint32 = 0
+    n_actions: uint32 = 0
+    feature_names: sequence[str] = field(default_factory=list)
+    action_names: sequence[str] = field(default_factory=list)
+    initial: sequence[float64] = field(default_factory=list)
+    from_state: sequence[uint32] = field(default_factory=list)
+    action: sequence[uint32] = field(default_factory=list)
+    to_state: sequence[uint32] = field(default_factory=list)
+    probability: sequence[float64] = field(default_factory=list)
+    features_of: uint8 = 0
+    features: sequence[float64] = field(default_factory=list)
+    shape: sequence[uint32, 2] = field(default_factory=list)
+
+
+@dataclass
+@final
+class WorldReference(IdlStruct, typename="apprentice_msgs::msg::dds_::WorldReference_"):
+    id: str = ""
+    hash: str = ""
+
+
+@dataclass
+@final
+class FeatureTrajectory(IdlStruct, typename="apprentice_msgs::msg::dds_::FeatureTrajectory_"):
+    id: str = ""
+    features: sequence[float64] = field(default_factory=list)
+
+
+@dataclass
+@final
+class ActionDemonstration(IdlStruct, typename="apprentice_msgs::msg::dds_::ActionDemonstration_"):
+    header: Header = field(default_factory=Header)
+    id: str = ""
+    source: str = ""
+    world_id: str = ""
+    states: sequence[uint32] = field(default_factory=list)
+    actions: sequence[uint32] = field(default_factory=list)
+    confidence: uint8 = 0
+
+
+@dataclass
+@final
+class TrajectoryPreference(IdlStruct, typename="apprentice_msgs::msg::dds_::TrajectoryPreference_"):
+    header: Header = field(default_factory=Header)
+    id: str = ""
+    query_id: str = ""
+    source: str = ""
+    trajectories: sequence[FeatureTrajectory] = field(default_factory=list)
+    answer: uint8 = 0
+    confidence: uint8 = 0
+
+
+@dataclass
+@final
+class CritiqueSegment(IdlStruct, typename="apprentice_msgs::msg::dds_::CritiqueSegment_"):
+    start: uint32 = 0
+    end: uint32 = 0
+    verdict: uint8 = 0
+
+
+@dataclass
+@final
+class SegmentCritique(IdlStruct, typename="apprentice_msgs::msg::dds_::SegmentCritique_"):
+    header: Header = field(default_factory=Header)
+    id: str = ""
+    query_id: str = ""
+    source: str = ""
+    world_id: str = ""
+    states: sequence[uint32] = field(default_factory=list)
+    actions: sequence[uint32] = field(default_factory=list)
+    segments: sequence[CritiqueSegment] = field(default_factory=list)
+    confidence: uint8 = 0
+
+
+@dataclass
+@final
+class LearnerHistory(IdlStruct, typename="apprentice_msgs::msg::dds_::LearnerHistory_"):
+    header: Header = field(default_factory=Header)
+    id: str = ""
+    source: str = ""
+    demonstrations: sequence[FeatureTrajectory] = field(default_factory=list)
+    confidence: uint8 = 0
+
+
+@dataclass
+@final
+class PolicyToJudge(IdlStruct, typename="apprentice_msgs::msg::dds_::PolicyToJudge_"):
+    id: str = ""
+    form: uint8 = 0
+    feature_counts: sequence[float64] = field(default_factory=list)
+    actions: sequence[uint32] = field(default_factory=list)
+    action_probabilities: sequence[float64] = field(default_factory=list)
+    rollouts: sequence[FeatureTrajectory] = field(default_factory=list)
+
+
+@dataclass
+@final
+class PolicySet(IdlStruct, typename="apprentice_msgs::msg::dds_::PolicySet_"):
+    header: Header = field(default_factory=Header)
+    id: str = ""
+    number: uint64 = 0
+    world_id: str = ""
+    policies: sequence[PolicyToJudge] = field(default_factory=list)
+
+
+@dataclass
+@final
+class Rationality(IdlStruct, typename="apprentice_msgs::msg::dds_::Rationality_"):
+    kind: str = ""
+    n: uint64 = 0
+    prior_median: float64 = 0.0
+    prior_log_sd: float64 = 0.0
+    mean: float64 = 0.0
+    quantile_05: float64 = 0.0
+    quantile_95: float64 = 0.0
+    wrong_rate: float64 = 0.0
+
+
+@dataclass
+@final
+class PreferenceCycle(IdlStruct, typename="apprentice_msgs::msg::dds_::PreferenceCycle_"):
+    trajectories: sequence[str] = field(default_factory=list)
+
+
+@dataclass
+@final
 class Posterior(IdlStruct, typename="apprentice_msgs::msg::dds_::Posterior_"):
     header: Header = field(default_factory=Header)
     revision: uint64 = 0
@@ -129,6 +269,7 @@ class Posterior(IdlStruct, typename="apprentice_msgs::msg::dds_::Posterior_"):
     stopped: bool = False
     task: TableScene = field(default_factory=TableScene)
     scene: TableScene = field(default_factory=TableScene)
+    world: WorldReference = field(default_factory=WorldReference)
     outcome: uint8 = 0
     reason: str = ""
     feature_names: sequence[str] = field(default_factory=list)
@@ -143,7 +284,73 @@ class Posterior(IdlStruct, typename="apprentice_msgs::msg::dds_::Posterior_"):
     ess_tail_min: float64 = 0.0
     acceptance: float64 = 0.0
     beta: float64 = 0.0
+    rationalities: sequence[Rationality] = field(default_factory=list)
+    learned_kinds: sequence[str] = field(default_factory=list)
+    learned_betas: sequence[float32] = field(default_factory=list)
+    cycles: sequence[PreferenceCycle] = field(default_factory=list)
     prior: str = ""
+    prior_scale: float64 = 0.0
+    seed: uint64 = 0
+    version: str = ""
+
+
+@dataclass
+@final
+class RiskBound(IdlStruct, typename="apprentice_msgs::msg::dds_::RiskBound_"):
+    outcome: uint8 = 0
+    reason: str = ""
+    bound: float64 = 0.0
+    point_estimate: float64 = 0.0
+    mean: float64 = 0.0
+    n: uint64 = 0
+    ess: float64 = 0.0
+    rhat: float64 = 0.0
+    needed: uint64 = 0
+    shift: float64 = 0.0
+
+
+@dataclass
+@final
+class PolicyBound(IdlStruct, typename="apprentice_msgs::msg::dds_::PolicyBound_"):
+    id: str = ""
+    form: uint8 = 0
+    feature_counts: sequence[float64] = field(default_factory=list)
+    n_rollouts: uint64 = 0
+    rollout_standard_error: float64 = 0.0
+    return_bound: RiskBound = field(default_factory=RiskBound)
+    loss_bound: RiskBound = field(default_factory=RiskBound)
+    loss_cvar: RiskBound = field(default_factory=RiskBound)
+    normalised_loss: RiskBound = field(default_factory=RiskBound)
+    probability_best: float64 = 0.0
+    rank: uint32 = 0
+    rank_by_mean: uint32 = 0
+    warning: str = ""
+
+
+@dataclass
+@final
+class PolicyBounds(IdlStruct, typename="apprentice_msgs::msg::dds_::PolicyBounds_"):
+    header: Header = field(default_factory=Header)
+    revision: uint64 = 0
+    set_id: str = ""
+    set_number: uint64 = 0
+    world: WorldReference = field(default_factory=WorldReference)
+    outcome: uint8 = 0
+    reason: str = ""
+    policies: sequence[PolicyBound] = field(default_factory=list)
+    alpha: float64 = 0.0
+    delta: float64 = 0.0
+    look: uint64 = 0
+    delta_spent: float64 = 0.0
+    n: uint64 = 0
+    n_chains: uint32 = 0
+    ess_min: float64 = 0.0
+    rhat_max: float64 = 0.0
+    acceptance: float64 = 0.0
+    rationalities: sequence[Rationality] = field(default_factory=list)
+    prior: str = ""
+    prior_scale: float64 = 0.0
+    evidence_hash: str = ""
     seed: uint64 = 0
     version: str = ""
 

@@ -140,4 +140,5 @@ def main():
     print(json.dumps({**answer, "first": plain(posterior, bounds), "late": told}))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -39,6 +39,7 @@ fn each_middleware_and_geometry_library_is_named_by_one_crate() {
         ("ros2-client", "nodes/bus"),
         ("rustdds", "nodes/bus"),
         ("parry3d-f64", "nodes/lib/arm"),
+        ("clarabel", "nodes/lib/robust"),
         ("mcap", "nodes/lib/bag"),
     ];
     let mut problems = Vec::new();

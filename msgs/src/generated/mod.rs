@@ -23,11 +23,15 @@ pub(crate) const MESSAGES: &[&str] = &[
     "action_msgs/msg/GoalInfo",
     "action_msgs/msg/GoalStatus",
     "action_msgs/msg/GoalStatusArray",
+    "apprentice_msgs/msg/ActionDemonstration",
     "apprentice_msgs/msg/Candidates",
+    "apprentice_msgs/msg/CritiqueSegment",
     "apprentice_msgs/msg/EvidenceLog",
     "apprentice_msgs/msg/EvidenceReceipt",
     "apprentice_msgs/msg/EvidenceRecord",
+    "apprentice_msgs/msg/FeatureTrajectory",
     "apprentice_msgs/msg/Heartbeat",
+    "apprentice_msgs/msg/LearnerHistory",
     "apprentice_msgs/msg/LessonStatus",
     "apprentice_msgs/msg/NodeSettings",
     "apprentice_msgs/msg/PerformanceBounds",
@@ -35,11 +39,23 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/PlacementDemonstration",
     "apprentice_msgs/msg/PlacementPlan",
     "apprentice_msgs/msg/PlacementQuery",
+    "apprentice_msgs/msg/PolicyBound",
+    "apprentice_msgs/msg/PolicyBounds",
+    "apprentice_msgs/msg/PolicySet",
+    "apprentice_msgs/msg/PolicyToJudge",
     "apprentice_msgs/msg/Posterior",
+    "apprentice_msgs/msg/PosteriorPreview",
+    "apprentice_msgs/msg/PreferenceCycle",
     "apprentice_msgs/msg/QueryResponse",
+    "apprentice_msgs/msg/Rationality",
     "apprentice_msgs/msg/Retraction",
+    "apprentice_msgs/msg/RiskBound",
     "apprentice_msgs/msg/SceneObject",
+    "apprentice_msgs/msg/SegmentCritique",
     "apprentice_msgs/msg/TableScene",
+    "apprentice_msgs/msg/TabularWorld",
+    "apprentice_msgs/msg/TrajectoryPreference",
+    "apprentice_msgs/msg/WorldReference",
     "builtin_interfaces/msg/Duration",
     "builtin_interfaces/msg/Time",
     "diagnostic_msgs/msg/DiagnosticArray",
@@ -160,17 +176,39 @@ int8 ERROR_GOAL_TERMINATED=3
 int8 return_code
 GoalInfo[] goals_canceling
 "#),
+    ("apprentice_msgs/msg/ActionDemonstration", r#"# A person shows what to do in states of a world. Idempotent: the same id with the same content counts once.
+uint8 CONFIDENCE_SURE=0
+uint8 CONFIDENCE_FAIRLY=1
+uint8 CONFIDENCE_GUESS=2
+
+std_msgs/Header header
+string id                        # unique within a session
+string source                    # who: a node or a person
+string world_id
+uint32[] states                  # any states in any order, each as often as it was shown
+uint32[] actions                 # taken in each of them
+uint8 confidence
+"#),
     ("apprentice_msgs/msg/Candidates", r#"# Hypothetical tables that active_query wants judged.
 std_msgs/Header header
 uint64 revision                  # of the posterior
 TableScene[] scenes
 "#),
+    ("apprentice_msgs/msg/CritiqueSegment", r#"# Part of a trajectory that a person marked.
+uint8 GOOD=0                     # as it should be done
+uint8 BAD=1                      # as it should not be done
+
+uint32 start                     # first step, counted from 0
+uint32 end                       # the step after the last
+uint8 verdict
+"#),
     ("apprentice_msgs/msg/EvidenceLog", r#"# Every accepted event of the session so far; what a replay computes from.
 std_msgs/Header header
-TableScene task                  # the first scene the session saw; names the weights
+TableScene task                  # the scene that named the weights before the first event; without extent when none did
+WorldReference world             # the world that named the weights before the first event; empty when none did
 EvidenceRecord[] records
 "#),
-    ("apprentice_msgs/msg/EvidenceReceipt", r#"# What reward_posterior did with a demonstration, a retraction or a response.
+    ("apprentice_msgs/msg/EvidenceReceipt", r#"# What reward_posterior did with evidence, a retraction or a response.
 uint8 ACCEPTED=0
 uint8 DUPLICATE=1                # had been accepted before; nothing changed
 uint8 REFUSED=2
@@ -185,18 +223,46 @@ uint64 revision                  # of the posterior that holds it; 0 when refuse
 uint8 DEMONSTRATION=0
 uint8 RETRACTION=1
 uint8 RESPONSE=2
+uint8 ACTIONS=3
+uint8 PREFERENCE=4
+uint8 CRITIQUE=5
+uint8 HISTORY=6
+uint8 SCENE=7                    # a table, when something else had named the weights before it
+uint8 WORLD=8                    # a world, when something else had named the weights before it
 
 uint64 sequence                  # 1, 2, …; the revision of the posterior that takes it in
 uint8 kind
 PlacementDemonstration[<=1] demonstration
 Retraction[<=1] retraction
 QueryResponse[<=1] response
+ActionDemonstration[<=1] actions
+TrajectoryPreference[<=1] preference
+SegmentCritique[<=1] critique
+LearnerHistory[<=1] history
+TableScene[<=1] scene
+WorldReference[<=1] world
+"#),
+    ("apprentice_msgs/msg/FeatureTrajectory", r#"# What a trajectory amounts to.
+string id                        # unique within a session: the same id stands for the same features
+float64[] features               # one per weight: the sum over its steps, discounted as the reward is
 "#),
     ("apprentice_msgs/msg/Heartbeat", r#"# A node is alive. Twice a second.
 builtin_interfaces/Time stamp
 string node
 string instance                  # new at every start
 uint64 count
+"#),
+    ("apprentice_msgs/msg/LearnerHistory", r#"# What somebody who was still learning did, in the order of time: a later attempt is probably the better one.
+# Idempotent: the same id with the same content counts once.
+uint8 CONFIDENCE_SURE=0
+uint8 CONFIDENCE_FAIRLY=1
+uint8 CONFIDENCE_GUESS=2
+
+std_msgs/Header header
+string id                        # unique within a session
+string source                    # who: a node or a person
+FeatureTrajectory[] demonstrations  # earliest first, two or more, each once; every pair is a weak preference
+uint8 confidence
 "#),
     ("apprentice_msgs/msg/LessonStatus", r#"# Where the lesson stands.
 uint8 ASKING=0
@@ -318,35 +384,122 @@ float64 bound_m                  # in this scene; NaN without one
 float64 epsilon_m
 uint32 n_candidates              # how many scenes it was chosen from
 "#),
+    ("apprentice_msgs/msg/PolicyBound", r#"# How good and how wrong one policy may be.
+string id
+uint8 form                       # as in PolicyToJudge
+float64[] feature_counts         # judged: given, computed from the policy, or the mean of the rollouts
+uint64 n_rollouts                # behind them; 0 when they are exact
+float64 rollout_standard_error   # of the mean return over the rollouts under the mean weights; NaN when it is exact or unknown
+RiskBound return_bound           # lower bound on the (1 - alpha)-quantile of the return w.Phi
+RiskBound loss_bound             # upper bound on the alpha-quantile of the loss V* - w.Phi, V* the best return in the world
+RiskBound loss_cvar              # upper bound on the mean of the worst 1 - alpha of the losses
+RiskBound normalised_loss        # upper bound on the alpha-quantile of the loss over that of choosing actions at random
+float64 probability_best         # share of the rewards under which no other policy of the set has a higher return
+uint32 rank                      # 1: the highest bound on the return
+uint32 rank_by_mean              # 1: the highest mean return
+string warning                   # a high mean and a low bound, in words; empty when there is nothing to warn of
+"#),
+    ("apprentice_msgs/msg/PolicyBounds", r#"# High-confidence bounds on the policies of a set, with their receipt.
+std_msgs/Header header           # stamp of the posterior
+uint64 revision                  # of the posterior
+string set_id
+uint64 set_number
+WorldReference world             # in which losses are measured; empty without one
+uint8 outcome                    # as in RiskBound: a bound only if every policy has one on its return
+string reason                    # in words: the claim, or "no bound, because …" and what it would take
+PolicyBound[] policies           # in the order of the set
+float64 alpha
+float64 delta
+uint64 look                      # how many posteriors the session has looked at, this one counted: revision + 1
+float64 delta_spent              # on each bound of this look
+uint64 n
+uint32 n_chains
+float64 ess_min
+float64 rhat_max
+float64 acceptance
+Rationality[] rationalities
+string prior
+float64 prior_scale
+string evidence_hash
+uint64 seed
+string version
+"#),
+    ("apprentice_msgs/msg/PolicySet", r#"# Policies to judge against each other under every posterior from now on, until the next set.
+std_msgs/Header header
+string id                        # unique within a session
+uint64 number                    # 1, 2, … within a session: bounds on the sets of a session share delta by it
+string world_id                  # of tabular policies; may be empty when there are none
+PolicyToJudge[] policies
+"#),
+    ("apprentice_msgs/msg/PolicyToJudge", r#"# A policy, in one of three forms.
+uint8 FEATURE_COUNTS=0           # what it is expected to collect
+uint8 TABULAR=1                  # what it does in each state of the world
+uint8 ROLLOUTS=2                 # what it collected when it was run
+
+string id                        # unique within a set
+uint8 form
+float64[] feature_counts         # FEATURE_COUNTS: one per weight, discounted, over the initial states
+uint32[] actions                 # TABULAR and deterministic: one per state
+float64[] action_probabilities   # TABULAR and stochastic: n_states x n_actions, row-major
+FeatureTrajectory[] rollouts     # ROLLOUTS: their mean is judged
+"#),
     ("apprentice_msgs/msg/Posterior", r#"# Draws of the reward weights given the evidence.
 uint8 READY=0
 uint8 NOT_MIXED=1                # the chains disagree: see reason
 
 std_msgs/Header header           # stamp of the newest accepted evidence
 uint64 revision                  # number of accepted events
-string evidence_hash             # SHA-256 over the active demonstrations, hex
-uint64 n_demonstrations          # active ones
+string evidence_hash             # SHA-256 over the evidence in force, hex
+uint64 n_demonstrations          # placements in force
 uint64 n_answers                 # questions answered or skipped so far, taken back or not
 bool stopped                     # the person said that nothing is acceptable, and has not taken it back
-TableScene task                  # the table that the lesson is about; names the weights
-TableScene scene                 # of the newest active demonstration, else the task
+TableScene task                  # the table that the lesson is about; without objects and extent when it is about none
+TableScene scene                 # of the newest placement in force, else the task
+WorldReference world             # the world that the lesson is about; empty when it is about none
 uint8 outcome
 string reason
-string[] feature_names           # one per weight: object ids, then the fixed centres
+string[] feature_names           # one per weight; for a table object ids, then the fixed centres
 uint32 n_chains
 uint32 n_draws                   # over all chains
 float32[] draws                  # n_draws x features, row-major, chains one after another; consumers use these very numbers
 float64[] map_weights
 float64 map_log_likelihood
 float64 log_likelihood_mean
-float64 rhat_max                 # rank-normalised split R-hat, worst over weights and log-likelihood
+float64 rhat_max                 # rank-normalised split R-hat, worst over weights, learned betas and log-likelihood
 float64 ess_bulk_min
 float64 ess_tail_min
 float64 acceptance
-float64 beta
+float64 beta                     # of placements
+Rationality[] rationalities      # every kind
+string[] learned_kinds           # those whose beta is drawn, in the order of rationalities
+float32[] learned_betas          # n_draws x learned_kinds, row-major
+PreferenceCycle[] cycles         # among the preferences in force
 string prior
+float64 prior_scale              # 0 for a prior on a sphere
 uint64 seed
 string version
+"#),
+    ("apprentice_msgs/msg/PosteriorPreview", r#"# An earlier posterior re-weighted by what was said since, while the next one is being computed. Nothing is computed
+# from it, and it does not change what the next one will be.
+uint8 READY=0
+uint8 UNRELIABLE=1               # the new evidence moves the posterior too far for the old draws: see reason
+
+std_msgs/Header header           # stamp of the newest accepted evidence
+uint64 revision                  # of the posterior that is being computed
+uint64 base_revision             # of the posterior whose draws are re-weighted
+string evidence_hash             # as the next posterior will carry it
+uint8 outcome
+string reason
+float64[] mean_weights           # weighted mean over the draws
+float64 expected_log_likelihood  # of all evidence in force, weighted mean over the draws
+float64 khat                     # shape of the tail of the weights (Pareto); above 0.7 they are not to be relied on
+float64 effective_size           # of the weights: squared sum over sum of squares
+uint32 n_draws                   # draws that were re-weighted, evenly spread over the posterior's
+uint64 seed
+string version
+"#),
+    ("apprentice_msgs/msg/PreferenceCycle", r#"# Trajectories that were said to be better than each other all around: answers that cannot all be right.
+string[] trajectories            # ids; each was called worse than the next one, and the last worse than the first
 "#),
     ("apprentice_msgs/msg/QueryResponse", r#"# An answer to a question that is not a placement.
 uint8 SKIP=0                     # no data: ask something else
@@ -360,12 +513,40 @@ string source
 uint8 kind
 string reason                    # may be empty
 "#),
+    ("apprentice_msgs/msg/Rationality", r#"# How rational one kind of evidence is taken to be: answers follow returns times beta.
+string kind                      # placements, actions, preferences, critiques or progress
+uint64 n                         # pieces of evidence of this kind in force
+float64 prior_median             # of beta; its value when it is fixed
+float64 prior_log_sd             # standard deviation of log beta before any evidence; 0: beta is fixed
+float64 mean                     # of the draws; the median of the prior when it is fixed
+float64 quantile_05
+float64 quantile_95
+float64 wrong_rate               # share of answers taken to be given at random
+"#),
     ("apprentice_msgs/msg/Retraction", r#"# Takes evidence back. Nothing is deleted: the posterior after it equals the posterior without that evidence.
 std_msgs/Header header
 string id                        # unique within a session
 string evidence_id               # what is taken back
 string source
 string reason                    # may be empty
+"#),
+    ("apprentice_msgs/msg/RiskBound", r#"# A confidence bound on a measure of risk over the rewards that fit the evidence, and the figures it rests on.
+uint8 BOUND=0
+uint8 NOT_ENOUGH_SAMPLES=1
+uint8 NOT_MIXED=2                # the chains disagree
+uint8 NOT_JUDGED=3               # for want of something other than draws
+uint8 UNBOUNDED=4                # what may be arbitrarily bad has no bound on the mean of its tail
+
+uint8 outcome
+string reason                    # "no bound, because …"; empty with one
+float64 bound                    # NaN without one
+float64 point_estimate           # the measure of the draws
+float64 mean                     # of the draws
+uint64 n                         # draws
+float64 ess                      # effective draws in the tail
+float64 rhat
+uint64 needed                    # effective draws that a bound takes
+float64 shift                    # by how much probability the bound looks further into the tail than the estimate does
 "#),
     ("apprentice_msgs/msg/SceneObject", r#"# One thing on the table. Metres, in the frame of the scene's header: x to the right, y away from the robot, z up;
 # the origin is the table's near left corner on its surface.
@@ -379,6 +560,22 @@ geometry_msgs/Vector3 size_m     # bounding box; a cylinder has size_m.x == size
 geometry_msgs/Pose pose          # centre of the base; rotation about z only
 bool supports                    # true: other things may be placed on it (a bowl for a spoon)
 "#),
+    ("apprentice_msgs/msg/SegmentCritique", r#"# A person marks what is good and what is bad in a trajectory of a world; what is not marked says nothing.
+# Idempotent: the same id with the same content counts once.
+uint8 CONFIDENCE_SURE=0
+uint8 CONFIDENCE_FAIRLY=1
+uint8 CONFIDENCE_GUESS=2
+
+std_msgs/Header header
+string id                        # unique within a session
+string query_id                  # the asker's question; empty: volunteered
+string source                    # who: a node or a person
+string world_id
+uint32[] states                  # the trajectory
+uint32[] actions                 # taken in each of its states
+CritiqueSegment[] segments       # one or more, none overlapping another
+uint8 confidence
+"#),
     ("apprentice_msgs/msg/TableScene", r#"# What stands on the table, and what is to be placed.
 std_msgs/Header header           # frame_id: the table's frame
 string id                        # unique within a session
@@ -386,6 +583,48 @@ float64 width_m                  # extent along x
 float64 depth_m                  # extent along y
 SceneObject[] objects
 SceneObject target               # the thing to place; its pose is ignored
+"#),
+    ("apprentice_msgs/msg/TabularWorld", r#"# A Markov decision process without a reward: what demonstrated actions and policies are about. Return = sum of
+# gamma^t w.phi over t = 0, 1, …; a state without transitions is terminal, and its features count once.
+uint8 STATE_FEATURES=0           # n_states x features, row-major
+uint8 STATE_ACTION_FEATURES=1    # (n_states n_actions) x features, row state n_actions + action
+
+std_msgs/Header header
+string id                        # unique within a session
+float64 gamma                    # discount, 0 or more and below 1
+uint32 n_states
+uint32 n_actions
+string[] feature_names           # one per weight
+string[] action_names            # one per action; empty: numbers
+float64[] initial                # probability of starting in each state
+uint32[] from_state              # transitions, in four arrays of equal length
+uint32[] action
+uint32[] to_state
+float64[] probability            # of each state and action that has any, they sum to 1
+uint8 features_of
+float64[] features
+uint32[<=2] shape                # rows and columns for pictures; empty: none
+"#),
+    ("apprentice_msgs/msg/TrajectoryPreference", r#"# Which of several trajectories is better. Idempotent: the same id with the same content counts once.
+uint8 RANKED=0                   # worst first; with more than two, every pair counts
+uint8 EQUAL=1                    # about equally good; with more than two, every pair is
+uint8 CANT_TELL=2                # no opinion, which says something about how rational the answers are
+
+uint8 CONFIDENCE_SURE=0
+uint8 CONFIDENCE_FAIRLY=1
+uint8 CONFIDENCE_GUESS=2
+
+std_msgs/Header header
+string id                        # unique within a session
+string query_id                  # the asker's question; empty: volunteered
+string source                    # who: a node or a person
+FeatureTrajectory[] trajectories # two or more, each once
+uint8 answer
+uint8 confidence
+"#),
+    ("apprentice_msgs/msg/WorldReference", r#"# Which TabularWorld; the world itself is on the topics `world` and `lesson_world`.
+string id
+string hash                      # SHA-256 of the message without its header, hex
 "#),
     ("apprentice_msgs/srv/SetPaused", r#"# Pauses or resumes a running replay.
 bool paused

@@ -4,6 +4,38 @@
 
 use serde::{Deserialize, Serialize};
 
+/// A person shows what to do in states of a world. Idempotent: the same id with the same content counts once.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ActionDemonstration {
+    /// (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// unique within a session (`string`)
+    pub id: std::string::String,
+    /// who: a node or a person (`string`)
+    pub source: std::string::String,
+    /// (`string`)
+    pub world_id: std::string::String,
+    /// any states in any order, each as often as it was shown (`uint32[]`)
+    pub states: Vec<u32>,
+    /// taken in each of them (`uint32[]`)
+    pub actions: Vec<u32>,
+    /// (`uint8`)
+    pub confidence: u8,
+}
+
+impl ActionDemonstration {
+    /// The constant `CONFIDENCE_SURE`.
+    pub const CONFIDENCE_SURE: u8 = 0;
+    /// The constant `CONFIDENCE_FAIRLY`.
+    pub const CONFIDENCE_FAIRLY: u8 = 1;
+    /// The constant `CONFIDENCE_GUESS`.
+    pub const CONFIDENCE_GUESS: u8 = 2;
+}
+
+impl crate::Message for ActionDemonstration {
+    const TYPE: &'static str = "apprentice_msgs/msg/ActionDemonstration";
+}
+
 /// Hypothetical tables that active_query wants judged.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Candidates {
@@ -19,13 +51,37 @@ impl crate::Message for Candidates {
     const TYPE: &'static str = "apprentice_msgs/msg/Candidates";
 }
 
+/// Part of a trajectory that a person marked.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CritiqueSegment {
+    /// first step, counted from 0 (`uint32`)
+    pub start: u32,
+    /// the step after the last (`uint32`)
+    pub end: u32,
+    /// (`uint8`)
+    pub verdict: u8,
+}
+
+impl CritiqueSegment {
+    /// as it should be done
+    pub const GOOD: u8 = 0;
+    /// as it should not be done
+    pub const BAD: u8 = 1;
+}
+
+impl crate::Message for CritiqueSegment {
+    const TYPE: &'static str = "apprentice_msgs/msg/CritiqueSegment";
+}
+
 /// Every accepted event of the session so far; what a replay computes from.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct EvidenceLog {
     /// (`std_msgs/Header`)
     pub header: super::std_msgs::Header,
-    /// the first scene the session saw; names the weights (`TableScene`)
+    /// the scene that named the weights before the first event; without extent when none did (`TableScene`)
     pub task: super::msg::TableScene,
+    /// the world that named the weights before the first event; empty when none did (`WorldReference`)
+    pub world: super::msg::WorldReference,
     /// (`EvidenceRecord[]`)
     pub records: Vec<super::msg::EvidenceRecord>,
 }
@@ -34,7 +90,7 @@ impl crate::Message for EvidenceLog {
     const TYPE: &'static str = "apprentice_msgs/msg/EvidenceLog";
 }
 
-/// What reward_posterior did with a demonstration, a retraction or a response.
+/// What reward_posterior did with evidence, a retraction or a response.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct EvidenceReceipt {
     /// (`std_msgs/Header`)
@@ -78,6 +134,24 @@ pub struct EvidenceRecord {
     /// (`QueryResponse[<=1]`)
     #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
     pub response: Vec<super::msg::QueryResponse>,
+    /// (`ActionDemonstration[<=1]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
+    pub actions: Vec<super::msg::ActionDemonstration>,
+    /// (`TrajectoryPreference[<=1]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
+    pub preference: Vec<super::msg::TrajectoryPreference>,
+    /// (`SegmentCritique[<=1]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
+    pub critique: Vec<super::msg::SegmentCritique>,
+    /// (`LearnerHistory[<=1]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
+    pub history: Vec<super::msg::LearnerHistory>,
+    /// (`TableScene[<=1]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
+    pub scene: Vec<super::msg::TableScene>,
+    /// (`WorldReference[<=1]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 1>")]
+    pub world: Vec<super::msg::WorldReference>,
 }
 
 impl EvidenceRecord {
@@ -87,10 +161,35 @@ impl EvidenceRecord {
     pub const RETRACTION: u8 = 1;
     /// The constant `RESPONSE`.
     pub const RESPONSE: u8 = 2;
+    /// The constant `ACTIONS`.
+    pub const ACTIONS: u8 = 3;
+    /// The constant `PREFERENCE`.
+    pub const PREFERENCE: u8 = 4;
+    /// The constant `CRITIQUE`.
+    pub const CRITIQUE: u8 = 5;
+    /// The constant `HISTORY`.
+    pub const HISTORY: u8 = 6;
+    /// a table, when something else had named the weights before it
+    pub const SCENE: u8 = 7;
+    /// a world, when something else had named the weights before it
+    pub const WORLD: u8 = 8;
 }
 
 impl crate::Message for EvidenceRecord {
     const TYPE: &'static str = "apprentice_msgs/msg/EvidenceRecord";
+}
+
+/// What a trajectory amounts to.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct FeatureTrajectory {
+    /// unique within a session: the same id stands for the same features (`string`)
+    pub id: std::string::String,
+    /// one per weight: the sum over its steps, discounted as the reward is (`float64[]`)
+    pub features: Vec<f64>,
+}
+
+impl crate::Message for FeatureTrajectory {
+    const TYPE: &'static str = "apprentice_msgs/msg/FeatureTrajectory";
 }
 
 /// A node is alive. Twice a second.
@@ -108,6 +207,35 @@ pub struct Heartbeat {
 
 impl crate::Message for Heartbeat {
     const TYPE: &'static str = "apprentice_msgs/msg/Heartbeat";
+}
+
+/// What somebody who was still learning did, in the order of time: a later attempt is probably the better one.
+/// Idempotent: the same id with the same content counts once.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct LearnerHistory {
+    /// (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// unique within a session (`string`)
+    pub id: std::string::String,
+    /// who: a node or a person (`string`)
+    pub source: std::string::String,
+    /// earliest first, two or more, each once; every pair is a weak preference (`FeatureTrajectory[]`)
+    pub demonstrations: Vec<super::msg::FeatureTrajectory>,
+    /// (`uint8`)
+    pub confidence: u8,
+}
+
+impl LearnerHistory {
+    /// The constant `CONFIDENCE_SURE`.
+    pub const CONFIDENCE_SURE: u8 = 0;
+    /// The constant `CONFIDENCE_FAIRLY`.
+    pub const CONFIDENCE_FAIRLY: u8 = 1;
+    /// The constant `CONFIDENCE_GUESS`.
+    pub const CONFIDENCE_GUESS: u8 = 2;
+}
+
+impl crate::Message for LearnerHistory {
+    const TYPE: &'static str = "apprentice_msgs/msg/LearnerHistory";
 }
 
 /// Where the lesson stands.
@@ -388,6 +516,145 @@ impl crate::Message for PlacementQuery {
     const TYPE: &'static str = "apprentice_msgs/msg/PlacementQuery";
 }
 
+/// How good and how wrong one policy may be.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PolicyBound {
+    /// (`string`)
+    pub id: std::string::String,
+    /// as in PolicyToJudge (`uint8`)
+    pub form: u8,
+    /// judged: given, computed from the policy, or the mean of the rollouts (`float64[]`)
+    pub feature_counts: Vec<f64>,
+    /// behind them; 0 when they are exact (`uint64`)
+    pub n_rollouts: u64,
+    /// of the mean return over the rollouts under the mean weights; NaN when it is exact or unknown (`float64`)
+    pub rollout_standard_error: f64,
+    /// lower bound on the (1 - alpha)-quantile of the return w.Phi (`RiskBound`)
+    pub return_bound: super::msg::RiskBound,
+    /// upper bound on the alpha-quantile of the loss V\* - w.Phi, V\* the best return in the world (`RiskBound`)
+    pub loss_bound: super::msg::RiskBound,
+    /// upper bound on the mean of the worst 1 - alpha of the losses (`RiskBound`)
+    pub loss_cvar: super::msg::RiskBound,
+    /// upper bound on the alpha-quantile of the loss over that of choosing actions at random (`RiskBound`)
+    pub normalised_loss: super::msg::RiskBound,
+    /// share of the rewards under which no other policy of the set has a higher return (`float64`)
+    pub probability_best: f64,
+    /// 1: the highest bound on the return (`uint32`)
+    pub rank: u32,
+    /// 1: the highest mean return (`uint32`)
+    pub rank_by_mean: u32,
+    /// a high mean and a low bound, in words; empty when there is nothing to warn of (`string`)
+    pub warning: std::string::String,
+}
+
+impl crate::Message for PolicyBound {
+    const TYPE: &'static str = "apprentice_msgs/msg/PolicyBound";
+}
+
+/// High-confidence bounds on the policies of a set, with their receipt.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PolicyBounds {
+    /// stamp of the posterior (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// of the posterior (`uint64`)
+    pub revision: u64,
+    /// (`string`)
+    pub set_id: std::string::String,
+    /// (`uint64`)
+    pub set_number: u64,
+    /// in which losses are measured; empty without one (`WorldReference`)
+    pub world: super::msg::WorldReference,
+    /// as in RiskBound: a bound only if every policy has one on its return (`uint8`)
+    pub outcome: u8,
+    /// in words: the claim, or "no bound, because …" and what it would take (`string`)
+    pub reason: std::string::String,
+    /// in the order of the set (`PolicyBound[]`)
+    pub policies: Vec<super::msg::PolicyBound>,
+    /// (`float64`)
+    pub alpha: f64,
+    /// (`float64`)
+    pub delta: f64,
+    /// how many posteriors the session has looked at, this one counted: revision + 1 (`uint64`)
+    pub look: u64,
+    /// on each bound of this look (`float64`)
+    pub delta_spent: f64,
+    /// (`uint64`)
+    pub n: u64,
+    /// (`uint32`)
+    pub n_chains: u32,
+    /// (`float64`)
+    pub ess_min: f64,
+    /// (`float64`)
+    pub rhat_max: f64,
+    /// (`float64`)
+    pub acceptance: f64,
+    /// (`Rationality[]`)
+    pub rationalities: Vec<super::msg::Rationality>,
+    /// (`string`)
+    pub prior: std::string::String,
+    /// (`float64`)
+    pub prior_scale: f64,
+    /// (`string`)
+    pub evidence_hash: std::string::String,
+    /// (`uint64`)
+    pub seed: u64,
+    /// (`string`)
+    pub version: std::string::String,
+}
+
+impl crate::Message for PolicyBounds {
+    const TYPE: &'static str = "apprentice_msgs/msg/PolicyBounds";
+}
+
+/// Policies to judge against each other under every posterior from now on, until the next set.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PolicySet {
+    /// (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// unique within a session (`string`)
+    pub id: std::string::String,
+    /// 1, 2, … within a session: bounds on the sets of a session share delta by it (`uint64`)
+    pub number: u64,
+    /// of tabular policies; may be empty when there are none (`string`)
+    pub world_id: std::string::String,
+    /// (`PolicyToJudge[]`)
+    pub policies: Vec<super::msg::PolicyToJudge>,
+}
+
+impl crate::Message for PolicySet {
+    const TYPE: &'static str = "apprentice_msgs/msg/PolicySet";
+}
+
+/// A policy, in one of three forms.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PolicyToJudge {
+    /// unique within a set (`string`)
+    pub id: std::string::String,
+    /// (`uint8`)
+    pub form: u8,
+    /// FEATURE_COUNTS: one per weight, discounted, over the initial states (`float64[]`)
+    pub feature_counts: Vec<f64>,
+    /// TABULAR and deterministic: one per state (`uint32[]`)
+    pub actions: Vec<u32>,
+    /// TABULAR and stochastic: n_states x n_actions, row-major (`float64[]`)
+    pub action_probabilities: Vec<f64>,
+    /// ROLLOUTS: their mean is judged (`FeatureTrajectory[]`)
+    pub rollouts: Vec<super::msg::FeatureTrajectory>,
+}
+
+impl PolicyToJudge {
+    /// what it is expected to collect
+    pub const FEATURE_COUNTS: u8 = 0;
+    /// what it does in each state of the world
+    pub const TABULAR: u8 = 1;
+    /// what it collected when it was run
+    pub const ROLLOUTS: u8 = 2;
+}
+
+impl crate::Message for PolicyToJudge {
+    const TYPE: &'static str = "apprentice_msgs/msg/PolicyToJudge";
+}
+
 /// Draws of the reward weights given the evidence.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Posterior {
@@ -395,23 +662,25 @@ pub struct Posterior {
     pub header: super::std_msgs::Header,
     /// number of accepted events (`uint64`)
     pub revision: u64,
-    /// SHA-256 over the active demonstrations, hex (`string`)
+    /// SHA-256 over the evidence in force, hex (`string`)
     pub evidence_hash: std::string::String,
-    /// active ones (`uint64`)
+    /// placements in force (`uint64`)
     pub n_demonstrations: u64,
     /// questions answered or skipped so far, taken back or not (`uint64`)
     pub n_answers: u64,
     /// the person said that nothing is acceptable, and has not taken it back (`bool`)
     pub stopped: bool,
-    /// the table that the lesson is about; names the weights (`TableScene`)
+    /// the table that the lesson is about; without objects and extent when it is about none (`TableScene`)
     pub task: super::msg::TableScene,
-    /// of the newest active demonstration, else the task (`TableScene`)
+    /// of the newest placement in force, else the task (`TableScene`)
     pub scene: super::msg::TableScene,
+    /// the world that the lesson is about; empty when it is about none (`WorldReference`)
+    pub world: super::msg::WorldReference,
     /// (`uint8`)
     pub outcome: u8,
     /// (`string`)
     pub reason: std::string::String,
-    /// one per weight: object ids, then the fixed centres (`string[]`)
+    /// one per weight; for a table object ids, then the fixed centres (`string[]`)
     pub feature_names: Vec<std::string::String>,
     /// (`uint32`)
     pub n_chains: u32,
@@ -425,7 +694,7 @@ pub struct Posterior {
     pub map_log_likelihood: f64,
     /// (`float64`)
     pub log_likelihood_mean: f64,
-    /// rank-normalised split R-hat, worst over weights and log-likelihood (`float64`)
+    /// rank-normalised split R-hat, worst over weights, learned betas and log-likelihood (`float64`)
     pub rhat_max: f64,
     /// (`float64`)
     pub ess_bulk_min: f64,
@@ -433,10 +702,20 @@ pub struct Posterior {
     pub ess_tail_min: f64,
     /// (`float64`)
     pub acceptance: f64,
-    /// (`float64`)
+    /// of placements (`float64`)
     pub beta: f64,
+    /// every kind (`Rationality[]`)
+    pub rationalities: Vec<super::msg::Rationality>,
+    /// those whose beta is drawn, in the order of rationalities (`string[]`)
+    pub learned_kinds: Vec<std::string::String>,
+    /// n_draws x learned_kinds, row-major (`float32[]`)
+    pub learned_betas: Vec<f32>,
+    /// among the preferences in force (`PreferenceCycle[]`)
+    pub cycles: Vec<super::msg::PreferenceCycle>,
     /// (`string`)
     pub prior: std::string::String,
+    /// 0 for a prior on a sphere (`float64`)
+    pub prior_scale: f64,
     /// (`uint64`)
     pub seed: u64,
     /// (`string`)
@@ -452,6 +731,60 @@ impl Posterior {
 
 impl crate::Message for Posterior {
     const TYPE: &'static str = "apprentice_msgs/msg/Posterior";
+}
+
+/// An earlier posterior re-weighted by what was said since, while the next one is being computed. Nothing is computed
+/// from it, and it does not change what the next one will be.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PosteriorPreview {
+    /// stamp of the newest accepted evidence (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// of the posterior that is being computed (`uint64`)
+    pub revision: u64,
+    /// of the posterior whose draws are re-weighted (`uint64`)
+    pub base_revision: u64,
+    /// as the next posterior will carry it (`string`)
+    pub evidence_hash: std::string::String,
+    /// (`uint8`)
+    pub outcome: u8,
+    /// (`string`)
+    pub reason: std::string::String,
+    /// weighted mean over the draws (`float64[]`)
+    pub mean_weights: Vec<f64>,
+    /// of all evidence in force, weighted mean over the draws (`float64`)
+    pub expected_log_likelihood: f64,
+    /// shape of the tail of the weights (Pareto); above 0.7 they are not to be relied on (`float64`)
+    pub khat: f64,
+    /// of the weights: squared sum over sum of squares (`float64`)
+    pub effective_size: f64,
+    /// draws that were re-weighted, evenly spread over the posterior's (`uint32`)
+    pub n_draws: u32,
+    /// (`uint64`)
+    pub seed: u64,
+    /// (`string`)
+    pub version: std::string::String,
+}
+
+impl PosteriorPreview {
+    /// The constant `READY`.
+    pub const READY: u8 = 0;
+    /// the new evidence moves the posterior too far for the old draws: see reason
+    pub const UNRELIABLE: u8 = 1;
+}
+
+impl crate::Message for PosteriorPreview {
+    const TYPE: &'static str = "apprentice_msgs/msg/PosteriorPreview";
+}
+
+/// Trajectories that were said to be better than each other all around: answers that cannot all be right.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PreferenceCycle {
+    /// ids; each was called worse than the next one, and the last worse than the first (`string[]`)
+    pub trajectories: Vec<std::string::String>,
+}
+
+impl crate::Message for PreferenceCycle {
+    const TYPE: &'static str = "apprentice_msgs/msg/PreferenceCycle";
 }
 
 /// An answer to a question that is not a placement.
@@ -484,6 +817,31 @@ impl crate::Message for QueryResponse {
     const TYPE: &'static str = "apprentice_msgs/msg/QueryResponse";
 }
 
+/// How rational one kind of evidence is taken to be: answers follow returns times beta.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rationality {
+    /// placements, actions, preferences, critiques or progress (`string`)
+    pub kind: std::string::String,
+    /// pieces of evidence of this kind in force (`uint64`)
+    pub n: u64,
+    /// of beta; its value when it is fixed (`float64`)
+    pub prior_median: f64,
+    /// standard deviation of log beta before any evidence; 0: beta is fixed (`float64`)
+    pub prior_log_sd: f64,
+    /// of the draws; the median of the prior when it is fixed (`float64`)
+    pub mean: f64,
+    /// (`float64`)
+    pub quantile_05: f64,
+    /// (`float64`)
+    pub quantile_95: f64,
+    /// share of answers taken to be given at random (`float64`)
+    pub wrong_rate: f64,
+}
+
+impl crate::Message for Rationality {
+    const TYPE: &'static str = "apprentice_msgs/msg/Rationality";
+}
+
 /// Takes evidence back. Nothing is deleted: the posterior after it equals the posterior without that evidence.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Retraction {
@@ -501,6 +859,48 @@ pub struct Retraction {
 
 impl crate::Message for Retraction {
     const TYPE: &'static str = "apprentice_msgs/msg/Retraction";
+}
+
+/// A confidence bound on a measure of risk over the rewards that fit the evidence, and the figures it rests on.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RiskBound {
+    /// (`uint8`)
+    pub outcome: u8,
+    /// "no bound, because …"; empty with one (`string`)
+    pub reason: std::string::String,
+    /// NaN without one (`float64`)
+    pub bound: f64,
+    /// the measure of the draws (`float64`)
+    pub point_estimate: f64,
+    /// of the draws (`float64`)
+    pub mean: f64,
+    /// draws (`uint64`)
+    pub n: u64,
+    /// effective draws in the tail (`float64`)
+    pub ess: f64,
+    /// (`float64`)
+    pub rhat: f64,
+    /// effective draws that a bound takes (`uint64`)
+    pub needed: u64,
+    /// by how much probability the bound looks further into the tail than the estimate does (`float64`)
+    pub shift: f64,
+}
+
+impl RiskBound {
+    /// The constant `BOUND`.
+    pub const BOUND: u8 = 0;
+    /// The constant `NOT_ENOUGH_SAMPLES`.
+    pub const NOT_ENOUGH_SAMPLES: u8 = 1;
+    /// the chains disagree
+    pub const NOT_MIXED: u8 = 2;
+    /// for want of something other than draws
+    pub const NOT_JUDGED: u8 = 3;
+    /// what may be arbitrarily bad has no bound on the mean of its tail
+    pub const UNBOUNDED: u8 = 4;
+}
+
+impl crate::Message for RiskBound {
+    const TYPE: &'static str = "apprentice_msgs/msg/RiskBound";
 }
 
 /// One thing on the table. Metres, in the frame of the scene's header: x to the right, y away from the robot, z up;
@@ -532,6 +932,43 @@ impl crate::Message for SceneObject {
     const TYPE: &'static str = "apprentice_msgs/msg/SceneObject";
 }
 
+/// A person marks what is good and what is bad in a trajectory of a world; what is not marked says nothing.
+/// Idempotent: the same id with the same content counts once.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SegmentCritique {
+    /// (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// unique within a session (`string`)
+    pub id: std::string::String,
+    /// the asker's question; empty: volunteered (`string`)
+    pub query_id: std::string::String,
+    /// who: a node or a person (`string`)
+    pub source: std::string::String,
+    /// (`string`)
+    pub world_id: std::string::String,
+    /// the trajectory (`uint32[]`)
+    pub states: Vec<u32>,
+    /// taken in each of its states (`uint32[]`)
+    pub actions: Vec<u32>,
+    /// one or more, none overlapping another (`CritiqueSegment[]`)
+    pub segments: Vec<super::msg::CritiqueSegment>,
+    /// (`uint8`)
+    pub confidence: u8,
+}
+
+impl SegmentCritique {
+    /// The constant `CONFIDENCE_SURE`.
+    pub const CONFIDENCE_SURE: u8 = 0;
+    /// The constant `CONFIDENCE_FAIRLY`.
+    pub const CONFIDENCE_FAIRLY: u8 = 1;
+    /// The constant `CONFIDENCE_GUESS`.
+    pub const CONFIDENCE_GUESS: u8 = 2;
+}
+
+impl crate::Message for SegmentCritique {
+    const TYPE: &'static str = "apprentice_msgs/msg/SegmentCritique";
+}
+
 /// What stands on the table, and what is to be placed.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TableScene {
@@ -551,4 +988,103 @@ pub struct TableScene {
 
 impl crate::Message for TableScene {
     const TYPE: &'static str = "apprentice_msgs/msg/TableScene";
+}
+
+/// A Markov decision process without a reward: what demonstrated actions and policies are about. Return = sum of
+/// gamma^t w.phi over t = 0, 1, …; a state without transitions is terminal, and its features count once.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TabularWorld {
+    /// (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// unique within a session (`string`)
+    pub id: std::string::String,
+    /// discount, 0 or more and below 1 (`float64`)
+    pub gamma: f64,
+    /// (`uint32`)
+    pub n_states: u32,
+    /// (`uint32`)
+    pub n_actions: u32,
+    /// one per weight (`string[]`)
+    pub feature_names: Vec<std::string::String>,
+    /// one per action; empty: numbers (`string[]`)
+    pub action_names: Vec<std::string::String>,
+    /// probability of starting in each state (`float64[]`)
+    pub initial: Vec<f64>,
+    /// transitions, in four arrays of equal length (`uint32[]`)
+    pub from_state: Vec<u32>,
+    /// (`uint32[]`)
+    pub action: Vec<u32>,
+    /// (`uint32[]`)
+    pub to_state: Vec<u32>,
+    /// of each state and action that has any, they sum to 1 (`float64[]`)
+    pub probability: Vec<f64>,
+    /// (`uint8`)
+    pub features_of: u8,
+    /// (`float64[]`)
+    pub features: Vec<f64>,
+    /// rows and columns for pictures; empty: none (`uint32[<=2]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 2>")]
+    pub shape: Vec<u32>,
+}
+
+impl TabularWorld {
+    /// n_states x features, row-major
+    pub const STATE_FEATURES: u8 = 0;
+    /// (n_states n_actions) x features, row state n_actions + action
+    pub const STATE_ACTION_FEATURES: u8 = 1;
+}
+
+impl crate::Message for TabularWorld {
+    const TYPE: &'static str = "apprentice_msgs/msg/TabularWorld";
+}
+
+/// Which of several trajectories is better. Idempotent: the same id with the same content counts once.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrajectoryPreference {
+    /// (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// unique within a session (`string`)
+    pub id: std::string::String,
+    /// the asker's question; empty: volunteered (`string`)
+    pub query_id: std::string::String,
+    /// who: a node or a person (`string`)
+    pub source: std::string::String,
+    /// two or more, each once (`FeatureTrajectory[]`)
+    pub trajectories: Vec<super::msg::FeatureTrajectory>,
+    /// (`uint8`)
+    pub answer: u8,
+    /// (`uint8`)
+    pub confidence: u8,
+}
+
+impl TrajectoryPreference {
+    /// worst first; with more than two, every pair counts
+    pub const RANKED: u8 = 0;
+    /// about equally good; with more than two, every pair is
+    pub const EQUAL: u8 = 1;
+    /// no opinion, which says something about how rational the answers are
+    pub const CANT_TELL: u8 = 2;
+    /// The constant `CONFIDENCE_SURE`.
+    pub const CONFIDENCE_SURE: u8 = 0;
+    /// The constant `CONFIDENCE_FAIRLY`.
+    pub const CONFIDENCE_FAIRLY: u8 = 1;
+    /// The constant `CONFIDENCE_GUESS`.
+    pub const CONFIDENCE_GUESS: u8 = 2;
+}
+
+impl crate::Message for TrajectoryPreference {
+    const TYPE: &'static str = "apprentice_msgs/msg/TrajectoryPreference";
+}
+
+/// Which TabularWorld; the world itself is on the topics \`world\` and \`lesson_world\`.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WorldReference {
+    /// (`string`)
+    pub id: std::string::String,
+    /// SHA-256 of the message without its header, hex (`string`)
+    pub hash: std::string::String,
+}
+
+impl crate::Message for WorldReference {
+    const TYPE: &'static str = "apprentice_msgs/msg/WorldReference";
 }

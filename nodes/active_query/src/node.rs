@@ -3,7 +3,7 @@
 use crate::{Settings, words};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior};
-use exchange::{scene_from_message, scene_to_message};
+use exchange::{is_about_a_table, scene_from_message, scene_to_message};
 use inquiry::{Choice, Judged, candidates, choose};
 use scene::{Field, Grid, Rbf, Scene, best_placement};
 use sha2::{Digest, Sha256};
@@ -68,6 +68,10 @@ impl ActiveQuery {
 
     fn posterior(&mut self, posterior: Posterior) -> Vec<Output> {
         if self.round.as_ref().is_some_and(|round| round.posterior.revision == posterior.revision) {
+            return Vec::new();
+        }
+        // A lesson that is about no table asks nothing about any.
+        if !is_about_a_table(&posterior) {
             return Vec::new();
         }
         let base = match scene_from_message(&posterior.scene) {

@@ -45,7 +45,8 @@ impl Ledger {
                 self.wait_for(now, receipt.revision)
             }
             Topic::Evidence(log) => {
-                let answers = log.records.iter().filter(|record| record.kind != EvidenceRecord::RETRACTION);
+                let no_answers = [EvidenceRecord::RETRACTION, EvidenceRecord::SCENE, EvidenceRecord::WORLD];
+                let answers = log.records.iter().filter(|record| !no_answers.contains(&record.kind));
                 self.answers = answers.count() as u64;
             }
             Topic::Plan(plan) if plan.query_id.is_empty() => self.plan = Some(PlacementPlan::clone(plan)),

@@ -174,7 +174,19 @@ fn said(record: &EvidenceRecord) -> String {
         let reason = if response.reason.is_empty() { String::new() } else { format!(" ({})", short(&response.reason)) };
         return format!("{}: {words}{reason}  {revision}", who(&response.source));
     }
-    format!("an empty record  {revision}")
+    let other = None
+        .or(record.actions.first().map(|m| (&m.source, format!("{} actions", m.states.len()))))
+        .or(record.preference.first().map(|m| (&m.source, format!("{} trajectories compared", m.trajectories.len()))))
+        .or(record.critique.first().map(|m| (&m.source, format!("{} segments marked", m.segments.len()))))
+        .or(record.history.first().map(|m| (&m.source, format!("{} attempts of a learner", m.demonstrations.len()))));
+    if let Some((source, what)) = other {
+        return format!("{}: {what}  {revision}", who(source));
+    }
+    let about = record.scene.first().map(|m| &m.id).or(record.world.first().map(|m| &m.id));
+    match about {
+        Some(id) => format!("the lesson is about '{}' too  {revision}", short(id)),
+        None => format!("an empty record  {revision}"),
+    }
 }
 
 fn bound_sentence(bounds: &PerformanceBounds, epsilon_m: f64, widest_m: f64) -> String {

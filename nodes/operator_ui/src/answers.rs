@@ -9,6 +9,7 @@ use apprentice_msgs::msg::{
     EvidenceLog, EvidenceReceipt, EvidenceRecord, PlacementDemonstration, QueryResponse, Retraction, TableScene,
 };
 use bus::Time;
+use exchange::record_id;
 
 /// What is not acknowledged is published again after this long, nanoseconds.
 const REPUBLISH_NS: i128 = 990_000_000;
@@ -191,8 +192,8 @@ impl Answers {
 
     /// Takes the evidence log: everything accepted so far. Returns whether anything changed.
     pub fn log(&mut self, log: &EvidenceLog) -> bool {
-        let same =
-            log.records.len() >= self.taken && (self.taken == 0 || id_of(&log.records[self.taken - 1]) == self.last_id);
+        let same = log.records.len() >= self.taken
+            && (self.taken == 0 || record_id(&log.records[self.taken - 1]) == self.last_id);
         if !same {
             self.entries.retain(|entry| entry.view.state == Fate::Pending);
             self.taken = 0;
@@ -202,12 +203,12 @@ impl Answers {
             self.record(record);
         }
         self.taken = log.records.len();
-        self.last_id = log.records.last().map_or("", id_of).to_owned();
+        self.last_id = log.records.last().map_or("", record_id).to_owned();
         changed
     }
 
     fn record(&mut self, record: &EvidenceRecord) {
-        self.waiting.retain(|waiting| waiting.evidence.id() != id_of(record));
+        self.waiting.retain(|waiting| waiting.evidence.id() != record_id(record));
         if let Some(message) = record.demonstration.first() {
             self.accepted(placement(message), Some(&message.scene), record.sequence);
         } else if let Some(message) = record.response.first() {
@@ -251,13 +252,6 @@ impl Entry {
     fn undo_id(&self) -> Option<&str> {
         self.view.undo.as_ref().map(|undo| undo.id.as_str())
     }
-}
-
-fn id_of(record: &EvidenceRecord) -> &str {
-    let demonstration = record.demonstration.first().map(|message| &message.id);
-    let retraction = record.retraction.first().map(|message| &message.id);
-    let response = record.response.first().map(|message| &message.id);
-    demonstration.or(retraction).or(response).map_or("", String::as_str)
 }
 
 fn placement(message: &PlacementDemonstration) -> AnswerView {

@@ -1,9 +1,12 @@
 //! The node as a state machine: a posterior and the tables to judge in, bounds with their receipt out.
 
 use crate::Settings;
+use crate::policies::Policies;
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::msg::{Candidates, PerformanceBounds, PlacementBound, Posterior};
-use exchange::{check_posterior, point_to_message, scene_from_message};
+use apprentice_msgs::msg::{
+    Candidates, PerformanceBounds, PlacementBound, PolicyBounds, PolicySet, Posterior, TabularWorld,
+};
+use exchange::{check_posterior, is_about_scene, point_to_message, scene_from_message};
 use placement::{LossBatch, placement_losses};
 use risk::{Outcome, delta_spent, upper_bound};
 use scene::Scene;
@@ -18,6 +21,10 @@ pub enum Event {
     Posterior(Box<Posterior>),
     /// The tables to judge it on.
     Candidates(Box<Candidates>),
+    /// A world: losses of policies are measured in it.
+    World(Box<TabularWorld>),
+    /// Policies to judge.
+    Policies(Box<PolicySet>),
     /// Time to send the newest bounds again.
     Republish,
 }
@@ -27,6 +34,8 @@ pub enum Event {
 pub enum Output {
     /// The bounds of one look.
     Bounds(Box<PerformanceBounds>),
+    /// The bounds on the policies of a set.
+    PolicyBounds(Box<PolicyBounds>),
     /// Something a person should know.
     Warn(String),
 }
@@ -38,28 +47,57 @@ pub struct PerformanceBoundsNode {
     candidates: Option<Box<Candidates>>,
     newest: Option<Box<PerformanceBounds>>,
     refused: Option<Box<Candidates>>,
+    policies: Policies,
 }
 
 impl PerformanceBoundsNode {
     /// A node that has seen nothing.
     pub fn new(settings: Settings) -> Self {
-        Self { settings, posterior: None, candidates: None, newest: None, refused: None }
+        Self { settings, posterior: None, candidates: None, newest: None, refused: None, policies: Policies::default() }
     }
 
     /// Takes one event. Outputs depend on the settings and the messages alone, never on `_now`.
     pub fn step(&mut self, _now: Time, event: Event) -> Vec<Output> {
-        match event {
-            Event::Posterior(posterior) => {
-                if let Err(reason) = check_posterior(&posterior) {
-                    return vec![Output::Warn(format!("posterior {} is ignored: {reason}", posterior.revision))];
+        let taken = match event {
+            Event::Posterior(posterior) => match check_posterior(&posterior) {
+                Ok(()) => {
+                    self.posterior = Some(posterior);
+                    Ok(())
                 }
-                self.posterior = Some(posterior);
-            }
+                Err(reason) => Err(format!("posterior {} is ignored: {reason}", posterior.revision)),
+            },
             // Candidates are sent again until they are judged; what is wrong with them is said once.
-            Event::Candidates(candidates) if self.refused.as_ref() == Some(&candidates) => return Vec::new(),
-            Event::Candidates(candidates) => self.candidates = Some(candidates),
-            Event::Republish => return self.newest.iter().cloned().map(Output::Bounds).collect(),
+            Event::Candidates(candidates) if self.refused.as_ref() == Some(&candidates) => Ok(()),
+            Event::Candidates(candidates) => {
+                self.candidates = Some(candidates);
+                Ok(())
+            }
+            Event::World(world) => self.policies.take_world(&world),
+            Event::Policies(set) => self.policies.take_set(set),
+            Event::Republish => return self.republish(),
+        };
+        if let Err(text) = taken {
+            return vec![Output::Warn(text)];
         }
+        let mut outputs = self.tables();
+        if let Some(posterior) = &self.posterior {
+            outputs.extend(match self.policies.judge(&self.settings, posterior) {
+                Some(Ok(bounds)) => Some(Output::PolicyBounds(bounds)),
+                Some(Err(text)) => Some(Output::Warn(text)),
+                None => None,
+            });
+        }
+        outputs
+    }
+
+    fn republish(&mut self) -> Vec<Output> {
+        let missing = self.policies.missing(self.posterior.as_deref()).map(Output::Warn);
+        let bounds = self.newest.iter().cloned().map(Output::Bounds);
+        bounds.chain(self.policies.newest().map(Output::PolicyBounds)).chain(missing).collect()
+    }
+
+    /// Bounds on the candidates, once there are some for the posterior at hand.
+    fn tables(&mut self) -> Vec<Output> {
         let (Some(posterior), Some(candidates)) = (&self.posterior, &self.candidates) else { return Vec::new() };
         let judged = self.newest.as_ref().is_some_and(|newest| newest.revision == posterior.revision);
         if judged || posterior.revision != candidates.revision {
@@ -89,7 +127,7 @@ impl PerformanceBoundsNode {
             .map(|message| scene_from_message(message).map_err(|error| error.to_string()))
             .collect::<Result<Vec<Scene>, String>>()?;
         for scene in &scenes {
-            if scene::Rbf::names(scene) != posterior.feature_names {
+            if !is_about_scene(posterior, scene) {
                 return Err(format!("the objects of scene '{}' are not those of the posterior", scene.id));
             }
         }
@@ -100,7 +138,7 @@ impl PerformanceBoundsNode {
             draws: &posterior.draws,
             n_features: posterior.feature_names.len(),
             map_weights: &posterior.map_weights,
-            threads: threads(self.settings.threads),
+            threads: self.settings.n_threads(),
         };
         let n_chains = posterior.n_chains as usize;
         let mut bounds = Vec::with_capacity(scenes.len());
@@ -242,12 +280,5 @@ fn no_placement(scene: &Scene, n: u64) -> PlacementBound {
         ess: f64::NAN,
         rhat: f64::NAN,
         ..PlacementBound::default()
-    }
-}
-
-fn threads(setting: i64) -> usize {
-    match usize::try_from(setting) {
-        Ok(threads) if threads > 0 => threads,
-        _ => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
     }
 }

@@ -11,7 +11,7 @@ pub struct Settings {
     pub seed: i64,
     /// The quantile of the loss that is bounded.
     pub alpha: f64,
-    /// The bounds of a whole session hold together with probability at least 1 − δ.
+    /// The bounds on placements of a whole session hold together with probability at least 1 − δ, and so do those on policies.
     pub delta: f64,
     /// Threads; the bounds do not depend on it. 0: as many as there are cores.
     pub threads: i64,
@@ -27,7 +27,7 @@ impl Default for Settings {
 
 impl NodeSettings for Settings {
     const NODE: &'static str = "performance_bounds";
-    const ABOUT: &'static str = "Bounds the placement error of the robot with high confidence, or says why it cannot";
+    const ABOUT: &'static str = "Bounds the placement error of the robot and the return and loss of policies with high confidence, or says why it cannot";
     const PARAMETERS: &'static [ParameterSpec] = &[
         ParameterSpec {
             name: "seed",
@@ -36,12 +36,12 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "alpha",
-            about: "the quantile of the loss that is bounded (value at risk)",
+            about: "the quantile of the loss that is bounded (value at risk); of a return, the quantile 1 - alpha",
             range: Range::Float { min: 0.5, max: 0.999 },
         },
         ParameterSpec {
             name: "delta",
-            about: "the bounds of a whole session hold together with probability at least 1 - delta",
+            about: "the bounds on placements of a whole session hold together with probability at least 1 - delta, and so do those on policies",
             range: Range::Float { min: 1e-6, max: 0.5 },
         },
         ParameterSpec {
@@ -58,5 +58,15 @@ impl NodeSettings for Settings {
 
     fn seed(&self) -> u64 {
         self.seed.unsigned_abs()
+    }
+}
+
+impl Settings {
+    /// Threads to compute on.
+    pub(crate) fn n_threads(&self) -> usize {
+        match usize::try_from(self.threads) {
+            Ok(threads) if threads > 0 => threads,
+            _ => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+        }
     }
 }

@@ -7,9 +7,9 @@ use apprentice_msgs::msg::{
 };
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
-use exchange::{check_posterior, scene_from_message};
+use exchange::{check_posterior, is_about_a_table, is_about_scene, scene_from_message};
 use placement::{LossBatch, MAP_SIDE, ManipulatorError, Planner};
-use scene::{Rbf, Scene};
+use scene::Scene;
 use sha2::{Digest, Sha256};
 
 /// Perception is this exact: an object that moved less stands where it stood, metres.
@@ -109,6 +109,10 @@ impl PlacementPlanner {
                 if let Err(reason) = check_posterior(&posterior) {
                     return vec![Output::Warn(format!("posterior {} is ignored: {reason}", posterior.revision))];
                 }
+                // A lesson that is about no table places nothing on any.
+                if !is_about_a_table(&posterior) {
+                    return Vec::new();
+                }
                 self.posterior = Some(posterior);
                 (self.guess, self.plan) = (None, None);
             }
@@ -155,7 +159,7 @@ impl PlacementPlanner {
     pub fn plan(&mut self, request: &Request<'_>) -> Result<PlanMessage, String> {
         check_posterior(request.posterior).map_err(|error| error.to_string())?;
         let scene: Scene = scene_from_message(request.scene).map_err(|error| error.to_string())?;
-        if Rbf::names(&scene) != request.posterior.feature_names {
+        if !is_about_scene(request.posterior, &scene) {
             return Err(format!("the objects of scene '{}' are not those of the posterior", scene.id));
         }
         let joints = convert::joints(request.start)?;

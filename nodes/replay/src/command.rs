@@ -73,27 +73,43 @@ fn replay(arguments: &Arguments) -> Result<Option<Report>, ReplayError> {
 }
 
 fn line(round: &Round) -> String {
-    let bounds = &round.bounds;
+    let Some(table) = &round.table else {
+        let posterior = &round.posterior;
+        let n: u64 = posterior.rationalities.iter().map(|of| of.n).sum();
+        let (revision, rhat, ess) = (posterior.revision, posterior.rhat_max, posterior.ess_bulk_min);
+        return format!("{revision:>8}  {n:>5}  {:>10}  {rhat:>6.4}  {ess:>6.0}  no table", "");
+    };
+    let bounds = &table.bounds;
     let bound = if bounds.outcome == PlacementBound::BOUND {
         format!("{:7.2} cm", 100.0 * bounds.bound_m)
     } else {
         "no bound".into()
     };
     let (shown, rhat, ess) = (round.posterior.n_demonstrations, bounds.rhat_max, bounds.ess_min);
-    format!("{:>8}  {shown:>5}  {bound:>10}  {rhat:>6.4}  {ess:>6.0}  {}", bounds.revision, state(round.lesson.state))
+    format!("{:>8}  {shown:>5}  {bound:>10}  {rhat:>6.4}  {ess:>6.0}  {}", bounds.revision, state(table.lesson.state))
 }
 
 fn summary(round: &Round) -> serde_json::Value {
+    let posterior = &round.posterior;
+    let Some(table) = &round.table else {
+        return json!({
+            "revision": posterior.revision,
+            "evidence_hash": posterior.evidence_hash,
+            "rhat_max": posterior.rhat_max,
+            "ess_min": posterior.ess_bulk_min,
+            "reason": posterior.reason,
+        });
+    };
     json!({
-        "revision": round.posterior.revision,
-        "demonstrations": round.posterior.n_demonstrations,
-        "evidence_hash": round.posterior.evidence_hash,
-        "bound_m": round.bounds.bound_m,
-        "rhat_max": round.bounds.rhat_max,
-        "ess_min": round.bounds.ess_min,
-        "reason": round.bounds.reason,
-        "state": state(round.lesson.state),
-        "query_id": round.lesson.query_id,
+        "revision": posterior.revision,
+        "demonstrations": posterior.n_demonstrations,
+        "evidence_hash": posterior.evidence_hash,
+        "bound_m": table.bounds.bound_m,
+        "rhat_max": table.bounds.rhat_max,
+        "ess_min": table.bounds.ess_min,
+        "reason": table.bounds.reason,
+        "state": state(table.lesson.state),
+        "query_id": table.lesson.query_id,
     })
 }
 
@@ -122,12 +138,21 @@ fn words(report: &Report) -> Vec<String> {
         ("questions", report.queries),
         ("lesson states", report.lessons),
         ("plans", report.plans),
+        ("previews", report.previews),
+        ("bounds on policies", report.policy_bounds),
     ];
     let counts: Vec<String> = kinds.iter().map(|(name, checked)| format!("{} {name}", checked.recorded)).collect();
     let mut lines = vec![format!("equal bit for bit: {} from {} accepted events", counts.join(", "), report.records)];
     for (name, checked) in kinds.iter().take(5).filter(|(_, checked)| checked.recorded < checked.revisions) {
         let missing = checked.revisions - checked.recorded;
         lines.push(format!("not in the bag: {missing} of {} {name}; there was nothing to compare", checked.revisions));
+    }
+    let (compared, all) = (report.policy_bounds.recorded, report.policy_bounds.revisions);
+    if compared < all {
+        let missing = all - compared;
+        lines.push(format!(
+            "not in the bag: the policies of {missing} of {all} bounds on policies; these were not compared"
+        ));
     }
     lines
 }

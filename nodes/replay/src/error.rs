@@ -40,6 +40,12 @@ pub enum ReplayError {
         /// First after it.
         after: u64,
     },
+    /// The world that evidence is about was not recorded.
+    #[error("the world '{id}' of the evidence is not in the bag; was `lesson_world` recorded?")]
+    NoWorld {
+        /// Its id.
+        id: String,
+    },
     /// The node's parameters were not recorded.
     #[error("the settings of {0} are not in the bag; was `settings` recorded?")]
     NoSettings(&'static str),

@@ -10,6 +10,6 @@ mod report;
 pub use command::{Arguments, run};
 pub use difference::{Difference, difference};
 pub use error::ReplayError;
-pub use recompute::{Lesson, Round, recompute};
+pub use recompute::{Lesson, Round, TableRound, recompute};
 pub use recording::Recording;
 pub use report::{Checked, Report, verify};

@@ -3,10 +3,15 @@
 use crate::{Recording, ReplayError};
 use active_query::ActiveQuery;
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::msg::{Candidates, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, Posterior};
+use apprentice_msgs::msg::{
+    Candidates, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, PolicyBounds,
+    PolicySet, Posterior, PosteriorPreview,
+};
 use bus::NodeSettings;
-use performance_bounds::PerformanceBoundsNode;
+use exchange::{World, is_about_a_table, world_from_message};
+use performance_bounds::{PerformanceBoundsNode, judge_policies};
 use placement_planner::{PlacementPlanner, Request, is_task};
+use reward_posterior::{Entry, RewardPosterior};
 use std::collections::BTreeMap;
 
 /// What the nodes say to one revision.
@@ -14,6 +19,13 @@ use std::collections::BTreeMap;
 pub struct Round {
     /// The posterior.
     pub posterior: Posterior,
+    /// What is said of tables, in a lesson about one.
+    pub table: Option<TableRound>,
+}
+
+/// What is said of tables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableRound {
     /// The tables to judge.
     pub candidates: Candidates,
     /// The bounds on them.
@@ -26,11 +38,16 @@ pub struct Round {
 
 /// A session computed anew.
 pub struct Lesson {
-    /// One round per revision, from 0.
+    /// One round per revision for which there is a posterior, ascending: from 0, unless only the first evidence said what the
+    /// weights are about.
     pub rounds: Vec<Round>,
-    planner: placement_planner::Settings,
+    /// Previews that were recorded, computed anew, by revision and base revision.
+    pub previews: BTreeMap<(u64, u64), PosteriorPreview>,
+    bounds: performance_bounds::Settings,
+    planner: Option<placement_planner::Settings>,
     planners: BTreeMap<String, PlacementPlanner>,
     robots: BTreeMap<String, String>,
+    worlds: BTreeMap<String, World>,
 }
 
 /// Computes every revision of a recording; `threads` overrides the recorded number and must not matter.
@@ -46,23 +63,77 @@ pub fn recompute(
         posterior.threads = threads;
         bounds.threads = threads;
     }
-    let mut query = ActiveQuery::new(settings(recording)?);
-    let mut bounds = PerformanceBoundsNode::new(bounds);
-    let mut rounds = Vec::new();
-    let log = &recording.evidence;
-    let posteriors = reward_posterior::replay_records(posterior, log.task.clone(), &log.records);
-    for posterior in posteriors {
-        let revision = rounds.len() as u64;
-        let posterior = posterior.map_err(|reason| ReplayError::Compute { revision, reason })?;
-        let round =
-            round(posterior, &mut query, &mut bounds).map_err(|reason| ReplayError::Compute { revision, reason })?;
+    let mut node = RewardPosterior::new(posterior);
+    let mut tables: Option<(ActiveQuery, PerformanceBoundsNode)> = None;
+    let (mut rounds, mut previews) = (Vec::new(), BTreeMap::new());
+    let records = &recording.evidence.records;
+    for revision in 0..=records.len() as u64 {
+        let wrong = |reason: String| ReplayError::Compute { revision, reason };
+        node.restore(entries(recording, revision)?).map_err(wrong)?;
+        let Some(posterior) = node.posterior().map_err(wrong)? else { continue };
+        for preview in recorded_previews(recording, revision) {
+            let until = usize::try_from(preview.revision).unwrap_or(usize::MAX).min(records.len());
+            let later = records.get(revision as usize..until).unwrap_or_default();
+            if let Some(preview) = node.preview_after(later).map_err(wrong)? {
+                previews.insert((preview.revision, revision), preview);
+            }
+        }
+        let table = if is_about_a_table(&posterior) {
+            if tables.is_none() {
+                tables = Some((ActiveQuery::new(settings(recording)?), PerformanceBoundsNode::new(bounds.clone())));
+            }
+            let (query, bounds) = tables.as_mut().expect("they were just put there");
+            Some(table_round(&posterior, query, bounds).map_err(wrong)?)
+        } else {
+            None
+        };
+        let round = Round { posterior, table };
         progress(&round);
         rounds.push(round);
     }
-    Ok(Lesson { rounds, planner: settings(recording)?, planners: BTreeMap::new(), robots: recording.robots.clone() })
+    let planner = if tables.is_some() { Some(settings(recording)?) } else { None };
+    // Worlds that cannot be used were recorded, too; nothing depends on them.
+    let worlds = recording.worlds.values().filter_map(|message| world_from_message(message).ok());
+    Ok(Lesson {
+        rounds,
+        previews,
+        bounds,
+        planner,
+        planners: BTreeMap::new(),
+        robots: recording.robots.clone(),
+        worlds: worlds.map(|world| (world.hash.clone(), world)).collect(),
+    })
 }
 
-fn round(posterior: Posterior, query: &mut ActiveQuery, bounds: &mut PerformanceBoundsNode) -> Result<Round, String> {
+/// What a node restores to come to a revision from the one before.
+fn entries(recording: &Recording, revision: u64) -> Result<Vec<Entry>, ReplayError> {
+    let log = &recording.evidence;
+    let world = |reference: &apprentice_msgs::msg::WorldReference| match recording.worlds.get(&reference.hash) {
+        Some(world) => Ok(Entry::World(Box::new(world.clone()))),
+        None => Err(ReplayError::NoWorld { id: reference.id.clone() }),
+    };
+    let Some(index) = (revision as usize).checked_sub(1) else {
+        return match (log.task.width_m > 0.0, log.world.hash.is_empty()) {
+            (true, _) => Ok(vec![Entry::Task(Box::new(log.task.clone()))]),
+            (false, false) => Ok(vec![world(&log.world)?]),
+            (false, true) => Ok(Vec::new()),
+        };
+    };
+    let record: &EvidenceRecord = &log.records[index];
+    let named = record.world.iter().map(world).collect::<Result<Vec<_>, _>>()?;
+    Ok(named.into_iter().chain([Entry::Record(Box::new(record.clone()))]).collect())
+}
+
+fn recorded_previews(recording: &Recording, base_revision: u64) -> impl Iterator<Item = &PosteriorPreview> {
+    let all = recording.preview.values().flatten().map(|(preview, _)| preview);
+    all.filter(move |preview| preview.base_revision == base_revision)
+}
+
+fn table_round(
+    posterior: &Posterior,
+    query: &mut ActiveQuery,
+    bounds: &mut PerformanceBoundsNode,
+) -> Result<TableRound, String> {
     let now = Time::default();
     let mut candidates = None;
     for output in query.step(now, active_query::Event::Posterior(Box::new(posterior.clone()))) {
@@ -79,6 +150,7 @@ fn round(posterior: Posterior, query: &mut ActiveQuery, bounds: &mut Performance
         match output {
             performance_bounds::Output::Bounds(message) => judged = Some(*message),
             performance_bounds::Output::Warn(text) => return Err(text),
+            performance_bounds::Output::PolicyBounds(_) => {}
         }
     }
     let bounds = judged.ok_or("performance_bounds gave no bounds")?;
@@ -92,18 +164,26 @@ fn round(posterior: Posterior, query: &mut ActiveQuery, bounds: &mut Performance
         }
     }
     let lesson = lesson.ok_or("active_query gave no state of the lesson")?;
-    Ok(Round { posterior, candidates, bounds, query: asked, lesson })
+    Ok(TableRound { candidates, bounds, query: asked, lesson })
 }
 
 impl Lesson {
+    /// What was said to a revision.
+    pub fn round(&self, revision: u64) -> Option<&Round> {
+        self.rounds.iter().find(|round| round.posterior.revision == revision)
+    }
+
     /// A recorded plan computed anew, from the scene and the start it names.
     pub fn replan(&mut self, recorded: &PlacementPlan) -> Result<PlacementPlan, ReplayError> {
         let revision = recorded.revision;
         let wrong = |reason: String| ReplayError::Compute { revision, reason };
-        let index = usize::try_from(revision).unwrap_or(usize::MAX);
-        let round = self.rounds.get(index).ok_or_else(|| wrong("a plan for a revision beyond the evidence".into()))?;
+        let round = self.rounds.iter().find(|round| round.posterior.revision == revision);
+        let round = round.ok_or_else(|| wrong("a plan for a revision without a posterior".into()))?;
+        let (Some(table), Some(settings)) = (&round.table, &self.planner) else {
+            return Err(wrong("a plan for a table that the lesson is not about".into()));
+        };
         if !self.planners.contains_key(&recorded.robot_hash) {
-            let mut planner = PlacementPlanner::new(self.planner.clone());
+            let mut planner = PlacementPlanner::new(settings.clone());
             if !recorded.robot_hash.is_empty() {
                 let urdf = self.robots.get(&recorded.robot_hash);
                 let urdf = urdf.ok_or_else(|| wrong("its robot description is not in the bag".into()))?;
@@ -118,10 +198,24 @@ impl Lesson {
             scene: &recorded.scene,
             start: &recorded.start,
             inside_bound: recorded.query_id.is_empty()
-                && round.lesson.state == LessonStatus::TAUGHT
+                && table.lesson.state == LessonStatus::TAUGHT
                 && is_task(&recorded.scene, &round.posterior),
         };
         planner.plan(&request).map_err(wrong)
+    }
+
+    /// Recorded bounds on policies computed anew, from the set that they judge.
+    pub fn rejudge(&self, recorded: &PolicyBounds, set: &PolicySet) -> Result<PolicyBounds, ReplayError> {
+        let revision = recorded.revision;
+        let wrong = |reason: String| ReplayError::Compute { revision, reason };
+        let round = self.round(revision);
+        let posterior = &round.ok_or_else(|| wrong("bounds for a revision without a posterior".into()))?.posterior;
+        let named = &posterior.world;
+        let world = self.worlds.get(&named.hash);
+        if world.is_none() && !named.hash.is_empty() {
+            return Err(ReplayError::NoWorld { id: named.id.clone() });
+        }
+        judge_policies(&self.bounds, posterior, set, world).map_err(wrong)
     }
 }
 

@@ -2,9 +2,11 @@
 
 use crate::ReplayError;
 use apprentice_msgs::msg::{
-    Candidates, EvidenceLog, LessonStatus, NodeSettings, PerformanceBounds, PlacementPlan, PlacementQuery, Posterior,
+    Candidates, EvidenceLog, LessonStatus, NodeSettings, PerformanceBounds, PlacementPlan, PlacementQuery,
+    PolicyBounds, PolicySet, Posterior, PosteriorPreview, TabularWorld,
 };
 use apprentice_msgs::{Message, from_cdr, std_msgs, to_cdr};
+use exchange::world_hash;
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,6 +19,14 @@ pub struct Recording {
     pub evidence: EvidenceLog,
     /// Recorded posteriors.
     pub posterior: Recorded<Posterior>,
+    /// Recorded previews.
+    pub preview: Recorded<PosteriorPreview>,
+    /// Recorded bounds on policies.
+    pub policy_bounds: Recorded<PolicyBounds>,
+    /// Sets of policies, as often as they differ.
+    pub policies: Vec<PolicySet>,
+    /// Worlds by their hash.
+    pub worlds: BTreeMap<String, TabularWorld>,
     /// Recorded candidates.
     pub candidates: Recorded<Candidates>,
     /// Recorded bounds.
@@ -77,6 +87,20 @@ impl Recording {
     fn take(&mut self, topic: &str, type_name: &str, index: usize, cdr: &[u8]) -> Result<(), ReplayError> {
         match type_name {
             Posterior::TYPE => insert(&mut self.posterior, topic, index, cdr, |m| m.revision),
+            PosteriorPreview::TYPE => insert(&mut self.preview, topic, index, cdr, |m| m.revision),
+            PolicyBounds::TYPE => insert(&mut self.policy_bounds, topic, index, cdr, |m| m.revision),
+            PolicySet::TYPE => {
+                let set: PolicySet = decode(topic, index, cdr)?;
+                if !self.policies.contains(&set) {
+                    self.policies.push(set);
+                }
+                Ok(())
+            }
+            TabularWorld::TYPE => {
+                let world: TabularWorld = decode(topic, index, cdr)?;
+                self.worlds.insert(world_hash(&world), world);
+                Ok(())
+            }
             Candidates::TYPE => insert(&mut self.candidates, topic, index, cdr, |m| m.revision),
             PerformanceBounds::TYPE => insert(&mut self.bounds, topic, index, cdr, |m| m.revision),
             PlacementQuery::TYPE => insert(&mut self.query, topic, index, cdr, |m| m.revision),
@@ -100,7 +124,7 @@ impl Recording {
             self.evidence = log;
             return Ok(());
         }
-        if log.task != self.evidence.task {
+        if (&log.task, &log.world) != (&self.evidence.task, &self.evidence.world) {
             return Err(ReplayError::TwoHistories { sequence: 0 });
         }
         if let Some((_, theirs)) = self.evidence.records.iter().zip(&log.records).find(|(a, b)| a != b) {

@@ -2,6 +2,7 @@
 
 use crate::recording::Recorded;
 use crate::{Difference, Lesson, Recording, ReplayError, difference};
+use apprentice_msgs::msg::{PolicyBounds, PolicySet, PosteriorPreview};
 use apprentice_msgs::{Message, to_cdr};
 use serde::Serialize;
 
@@ -43,29 +44,34 @@ pub struct Report {
     pub lessons: Checked,
     /// Plans and guesses compared.
     pub plans: Checked,
+    /// Previews compared.
+    pub previews: Checked,
+    /// Bounds on policies compared, of all that were recorded: those whose policies were recorded, too.
+    pub policy_bounds: Checked,
     /// The first difference, in the order of the loop.
     pub mismatch: Option<Mismatch>,
 }
 
 /// Compares everything recorded with the session computed anew; stops at the first difference.
 pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, ReplayError> {
-    let revisions = lesson.rounds.len();
+    let last = recording.evidence.records.len() as u64;
     let mut mismatch = None;
-    for (r, round) in lesson.rounds.iter().enumerate() {
-        let r = r as u64;
+    for r in 0..=last {
+        let round = lesson.round(r);
+        let table = round.and_then(|round| round.table.as_ref());
         mismatch = mismatch
-            .or_else(|| compare(&recording.posterior, r, Some(&round.posterior)))
-            .or_else(|| compare(&recording.candidates, r, Some(&round.candidates)))
-            .or_else(|| compare(&recording.bounds, r, Some(&round.bounds)))
-            .or_else(|| compare(&recording.query, r, round.query.as_ref()))
-            .or_else(|| compare(&recording.lesson, r, Some(&round.lesson)));
+            .or_else(|| compare(&recording.posterior, r, round.map(|round| &round.posterior)))
+            .or_else(|| compare(&recording.candidates, r, table.map(|table| &table.candidates)))
+            .or_else(|| compare(&recording.bounds, r, table.map(|table| &table.bounds)))
+            .or_else(|| compare(&recording.query, r, table.and_then(|table| table.query.as_ref())))
+            .or_else(|| compare(&recording.lesson, r, table.map(|table| &table.lesson)));
     }
     mismatch = mismatch
-        .or_else(|| beyond(&recording.posterior, revisions))
-        .or_else(|| beyond(&recording.candidates, revisions))
-        .or_else(|| beyond(&recording.bounds, revisions))
-        .or_else(|| beyond(&recording.query, revisions))
-        .or_else(|| beyond(&recording.lesson, revisions));
+        .or_else(|| beyond(&recording.posterior, last))
+        .or_else(|| beyond(&recording.candidates, last))
+        .or_else(|| beyond(&recording.bounds, last))
+        .or_else(|| beyond(&recording.query, last))
+        .or_else(|| beyond(&recording.lesson, last));
     for plans in recording.plan.values() {
         for (recorded, bytes) in plans {
             if mismatch.is_some() {
@@ -79,14 +85,31 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
             }
         }
     }
+    for (recorded, bytes) in recording.preview.values().flatten() {
+        mismatch = mismatch.or_else(|| preview(lesson, recorded, bytes));
+    }
+    let mut policy_bounds = Checked { recorded: 0, revisions: recording.policy_bounds.values().map(Vec::len).sum() };
+    for (recorded, bytes) in recording.policy_bounds.values().flatten() {
+        // Whoever sends policies may be gone before a recorder hears of it.
+        let sets = sets_of(recording, recorded);
+        policy_bounds.recorded += usize::from(!sets.is_empty());
+        if mismatch.is_none() {
+            mismatch = rejudged(lesson, &sets, recorded, bytes)?;
+        }
+    }
+    let revisions = lesson.rounds.len();
+    let tables = lesson.rounds.iter().filter_map(|round| round.table.as_ref());
+    let n_tables = tables.clone().count();
     Ok(Report {
         records: recording.evidence.records.len(),
         posteriors: checked(&recording.posterior, revisions),
-        candidates: checked(&recording.candidates, revisions),
-        bounds: checked(&recording.bounds, revisions),
-        queries: checked(&recording.query, lesson.rounds.iter().filter(|round| round.query.is_some()).count()),
-        lessons: checked(&recording.lesson, revisions),
-        plans: checked(&recording.plan, revisions),
+        candidates: checked(&recording.candidates, n_tables),
+        bounds: checked(&recording.bounds, n_tables),
+        queries: checked(&recording.query, tables.filter(|table| table.query.is_some()).count()),
+        lessons: checked(&recording.lesson, n_tables),
+        plans: checked(&recording.plan, n_tables),
+        previews: checked(&recording.preview, lesson.previews.len()),
+        policy_bounds,
         mismatch,
     })
 }
@@ -105,14 +128,44 @@ fn compare<M: Message>(recorded: &Recorded<M>, revision: u64, recomputed: Option
     all.iter().find(|(_, recorded)| *recorded != bytes).map(|(recorded, _)| found(recorded, recomputed, revision))
 }
 
-fn beyond<M: Message>(recorded: &Recorded<M>, revisions: usize) -> Option<Mismatch> {
-    let revision = *recorded.keys().find(|revision| **revision >= revisions as u64)?;
+fn beyond<M: Message>(recorded: &Recorded<M>, last: u64) -> Option<Mismatch> {
+    let revision = *recorded.keys().find(|revision| **revision > last)?;
     let difference = Difference {
         field: "revision".into(),
         recorded: revision.to_string(),
-        recomputed: format!("the evidence ends at revision {}", revisions.saturating_sub(1)),
+        recomputed: format!("the evidence ends at revision {last}"),
     };
     Some(Mismatch { message: M::TYPE, revision, difference })
+}
+
+fn preview(lesson: &Lesson, recorded: &PosteriorPreview, bytes: &[u8]) -> Option<Mismatch> {
+    let recomputed = lesson.previews.get(&(recorded.revision, recorded.base_revision));
+    let recomputed = recomputed.cloned().unwrap_or_default();
+    (to_cdr(&recomputed) != bytes).then(|| found(recorded, &recomputed, recorded.revision))
+}
+
+/// The sets that carry the id and the number that bounds name.
+fn sets_of<'a>(recording: &'a Recording, recorded: &PolicyBounds) -> Vec<&'a PolicySet> {
+    let named = |set: &&PolicySet| set.id == recorded.set_id && set.number == recorded.set_number;
+    recording.policies.iter().filter(named).collect()
+}
+
+/// Bounds must be those of one of the sets.
+fn rejudged(
+    lesson: &Lesson,
+    sets: &[&PolicySet],
+    recorded: &PolicyBounds,
+    bytes: &[u8],
+) -> Result<Option<Mismatch>, ReplayError> {
+    let mut first = None;
+    for set in sets {
+        let recomputed = lesson.rejudge(recorded, set)?;
+        if to_cdr(&recomputed) == bytes {
+            return Ok(None);
+        }
+        first = first.or_else(|| Some(found(recorded, &recomputed, recorded.revision)));
+    }
+    Ok(first)
 }
 
 fn found<M: Message>(recorded: &M, recomputed: &M, revision: u64) -> Mismatch {

@@ -100,10 +100,11 @@ fn session() -> Bag {
     let (_, lesson) = computed(&bag);
     for round in &lesson.rounds {
         record(&mut bag, "posterior", &round.posterior);
-        record(&mut bag, "candidates", &round.candidates);
-        record(&mut bag, "bounds", &round.bounds);
-        record(&mut bag, "lesson", &round.lesson);
-        record(&mut bag, "query", round.query.as_ref().expect("400 draws teach nobody"));
+        let table = round.table.as_ref().expect("the lesson is about a table");
+        record(&mut bag, "candidates", &table.candidates);
+        record(&mut bag, "bounds", &table.bounds);
+        record(&mut bag, "lesson", &table.lesson);
+        record(&mut bag, "query", table.query.as_ref().expect("400 draws teach nobody"));
     }
     bag
 }

@@ -1,37 +1,100 @@
 //! Everything accepted so far, in order, and what of it is in force.
 
-use apprentice_msgs::msg::{EvidenceRecord, PlacementDemonstration, QueryResponse, TableScene};
+use crate::weights::Weights;
+use apprentice_msgs::msg::{
+    ActionDemonstration, EvidenceLog, EvidenceRecord, FeatureTrajectory, LearnerHistory, PlacementDemonstration,
+    QueryResponse, SegmentCritique, TableScene, TrajectoryPreference, WorldReference,
+};
 use apprentice_msgs::std_msgs::Header;
-use exchange::{ExchangeError, point_from_message, scene_from_message};
-use posterior::{Confidence, Demonstration};
+use apprentice_msgs::to_cdr;
+use exchange::{ExchangeError, World, record_header, record_id, scene_from_message};
 use scene::{Rbf, Scene};
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// What the lesson was about before the first event; whatever comes later is a record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Beginning {
+    Table,
+    World,
+}
 
 /// The evidence of a session. Records are only ever appended.
 #[derive(Debug, Clone, Default)]
 pub struct Evidence {
+    weights: Weights,
+    beginning: Option<Beginning>,
     task: Option<(TableScene, Scene)>,
+    world: Option<Arc<World>>,
+    offered: Option<Arc<World>>,
     records: Vec<EvidenceRecord>,
     by_id: HashMap<String, usize>,
     retracted: HashSet<String>,
+    n_bytes: usize,
 }
 
 impl Evidence {
-    /// The first scene of the session.
+    /// The table that the lesson is about.
     pub fn task(&self) -> Option<&(TableScene, Scene)> {
         self.task.as_ref()
     }
 
-    /// Sets the first scene of the session; later scenes do not change what the weights are about.
-    pub fn set_task(&mut self, message: TableScene) -> Result<(), ExchangeError> {
+    /// The world that the lesson is about.
+    pub fn world(&self) -> Option<&World> {
+        self.world.as_deref()
+    }
+
+    /// How messages name it; empty without one.
+    pub fn world_reference(&self) -> WorldReference {
+        self.world().map(World::reference).unwrap_or_default()
+    }
+
+    /// Whether nothing has been said yet, not even what the lesson is about.
+    pub fn is_blank(&self) -> bool {
+        self.records.is_empty() && self.beginning.is_none()
+    }
+
+    /// The table of the lesson, before anything else is known; later tables are records.
+    ///
+    /// # Errors
+    /// A scene that cannot be used.
+    pub fn begin_with_table(&mut self, message: TableScene) -> Result<(), ExchangeError> {
+        self.set_task(message)?;
+        self.beginning = Some(Beginning::Table);
+        Ok(())
+    }
+
+    /// The world of the lesson, before anything else is known; later worlds are records.
+    pub fn begin_with_world(&mut self, world: Arc<World>) {
+        self.set_world(world);
+        self.beginning = Some(Beginning::World);
+    }
+
+    /// A world that a later record may name.
+    pub fn offer_world(&mut self, world: Arc<World>) {
+        self.offered = Some(world);
+    }
+
+    fn set_task(&mut self, message: TableScene) -> Result<(), ExchangeError> {
         let scene = scene_from_message(&message)?;
+        let by = format!("the table '{}' with its objects and fixed centres", scene.id);
+        self.weights.name(Rbf::names(&scene), by);
         self.task = Some((message, scene));
         Ok(())
     }
 
-    /// What each weight is about; empty before the task is known.
-    pub fn feature_names(&self) -> Vec<String> {
-        self.task.as_ref().map(|(_, scene)| Rbf::names(scene)).unwrap_or_default()
+    fn set_world(&mut self, world: Arc<World>) {
+        self.weights.name(world.feature_names.clone(), format!("the world '{}'", world.id));
+        self.world = Some(world);
+    }
+
+    /// What each weight is about; empty while nothing has said so.
+    pub fn feature_names(&self) -> &[String] {
+        self.weights.names()
+    }
+
+    pub(crate) fn weights(&self) -> &Weights {
+        &self.weights
     }
 
     /// Every accepted event.
@@ -54,30 +117,103 @@ impl Evidence {
         self.records.len() as u64
     }
 
-    /// Appends an accepted event; its sequence number must be the next.
-    pub fn append(&mut self, record: EvidenceRecord) {
-        debug_assert_eq!(record.sequence, self.revision() + 1);
+    /// Bytes of all records.
+    pub fn n_bytes(&self) -> usize {
+        self.n_bytes
+    }
+
+    /// Appends an accepted event.
+    ///
+    /// # Errors
+    /// A record that does not follow: another sequence number, a table that cannot be used, or a world that is not known.
+    /// Records were checked before they were accepted, so this means a damaged journal.
+    pub fn append(&mut self, record: EvidenceRecord) -> Result<(), String> {
+        let expected = self.revision() + 1;
+        if record.sequence != expected {
+            return Err(format!("it has sequence {}, {expected} was expected", record.sequence));
+        }
+        if let Some(scene) = record.scene.first() {
+            self.set_task(scene.clone()).map_err(|error| error.to_string())?;
+        }
+        if let Some(reference) = record.world.first() {
+            let world = self.offered.clone().filter(|world| world.reference() == *reference);
+            let world = world.ok_or_else(|| format!("it names the world '{}', which is not known", reference.id))?;
+            self.set_world(world);
+        }
         if let Some(retraction) = record.retraction.first() {
             self.retracted.insert(retraction.evidence_id.clone());
         }
-        self.by_id.insert(id_of(&record).to_owned(), self.records.len());
+        if let Some(trajectory) = trajectories_of(&record).first() {
+            self.weights.count(trajectory.features.len());
+        }
+        let id = record_id(&record);
+        if !id.is_empty() {
+            self.by_id.insert(id.to_owned(), self.records.len());
+        }
+        self.n_bytes += to_cdr(&record).len();
         self.records.push(record);
+        Ok(())
     }
 
-    /// The demonstrations in force, in accepted order.
-    pub fn active(&self) -> impl Iterator<Item = &PlacementDemonstration> {
-        let demonstrations = self.records.iter().filter_map(|record| record.demonstration.first());
-        demonstrations.filter(|demonstration| !self.is_retracted(&demonstration.id))
+    /// The records in force, in accepted order: what has not been taken back, and is no retraction itself.
+    pub fn in_force(&self) -> impl Iterator<Item = &EvidenceRecord> {
+        let counts = |record: &&EvidenceRecord| {
+            record.kind != EvidenceRecord::RETRACTION && !self.is_retracted(record_id(record))
+        };
+        self.records.iter().filter(counts)
     }
 
-    /// The same for the core. Records were checked before they were accepted, so an error means a damaged journal.
-    pub fn active_demonstrations(&self) -> Result<Vec<Demonstration>, ExchangeError> {
-        self.active().map(demonstration_from_message).collect()
+    /// Ids of what is in force.
+    pub(crate) fn ids_in_force(&self) -> HashSet<String> {
+        self.in_force().map(|record| record_id(record).to_owned()).collect()
     }
 
-    /// The scene of the newest demonstration in force, else the task's.
+    /// The same lesson with nothing but those records in force that `keep` takes.
+    pub(crate) fn with_only(&self, keep: impl Fn(&str) -> bool) -> Self {
+        let records = self.in_force().filter(|record| keep(record_id(record))).cloned().collect();
+        Self {
+            weights: self.weights.clone(),
+            beginning: self.beginning,
+            task: self.task.clone(),
+            world: self.world.clone(),
+            records,
+            ..Self::default()
+        }
+    }
+
+    /// The placements in force, in accepted order.
+    pub fn placements(&self) -> impl Iterator<Item = &PlacementDemonstration> {
+        self.in_force().filter_map(|record| record.demonstration.first())
+    }
+
+    /// The demonstrated actions in force, in accepted order.
+    pub fn actions(&self) -> impl Iterator<Item = &ActionDemonstration> {
+        self.in_force().filter_map(|record| record.actions.first())
+    }
+
+    /// The preferences in force, in accepted order.
+    pub fn preferences(&self) -> impl Iterator<Item = &TrajectoryPreference> {
+        self.in_force().filter_map(|record| record.preference.first())
+    }
+
+    /// The critiques in force, in accepted order.
+    pub fn critiques(&self) -> impl Iterator<Item = &SegmentCritique> {
+        self.in_force().filter_map(|record| record.critique.first())
+    }
+
+    /// The learners' histories in force, in accepted order.
+    pub fn histories(&self) -> impl Iterator<Item = &LearnerHistory> {
+        self.in_force().filter_map(|record| record.history.first())
+    }
+
+    /// Every trajectory that evidence in force is about, repeats among them.
+    pub(crate) fn trajectories(&self) -> impl Iterator<Item = &FeatureTrajectory> {
+        self.in_force().flat_map(trajectories_of)
+    }
+
+    /// The scene of the newest placement in force, else the task's.
     pub fn newest_scene(&self) -> Option<&TableScene> {
-        self.active().last().map(|d| &d.scene).or(self.task.as_ref().map(|(message, _)| message))
+        self.placements().last().map(|d| &d.scene).or(self.task.as_ref().map(|(message, _)| message))
     }
 
     /// Questions answered or skipped, taken back or not.
@@ -90,44 +226,36 @@ impl Evidence {
 
     /// Whether the person said that nothing is acceptable, and has not taken it back.
     pub fn stopped(&self) -> bool {
-        let mut responses = self.records.iter().filter_map(|record| record.response.first());
-        responses.any(|r| r.kind == QueryResponse::STOP && !self.is_retracted(&r.id))
+        let mut responses = self.in_force().filter_map(|record| record.response.first());
+        responses.any(|r| r.kind == QueryResponse::STOP)
     }
 
     /// Header of what is computed from the evidence: the stamp of the newest event, never a clock's.
     pub fn header(&self) -> Header {
-        let newest =
-            self.records.last().map(|record| match (&record.demonstration.first(), &record.retraction.first()) {
-                (Some(demonstration), _) => &demonstration.header,
-                (_, Some(retraction)) => &retraction.header,
-                _ => &record.response.first().expect("a record holds one event").header,
-            });
-        let frame_id = self.task.as_ref().map(|(message, _)| message.header.frame_id.clone()).unwrap_or_default();
-        let stamp = newest.or(self.task.as_ref().map(|(message, _)| &message.header)).map(|h| h.stamp);
-        Header { stamp: stamp.unwrap_or_default(), frame_id }
+        let newest = self.records.iter().rev().find_map(record_header);
+        let task = self.task.as_ref().map(|(message, _)| &message.header);
+        let frame_id = task.map(|header| header.frame_id.clone()).unwrap_or_default();
+        Header { stamp: newest.or(task).map(|header| header.stamp).unwrap_or_default(), frame_id }
+    }
+
+    /// The log of everything accepted.
+    pub fn log(&self) -> EvidenceLog {
+        let of = |beginning| self.beginning == Some(beginning);
+        let task = self.task.as_ref().filter(|_| of(Beginning::Table)).map(|(message, _)| message.clone());
+        EvidenceLog {
+            header: self.header(),
+            task: task.unwrap_or_default(),
+            world: if of(Beginning::World) { self.world_reference() } else { WorldReference::default() },
+            records: self.records.clone(),
+        }
     }
 }
 
-/// Id of the event in a record.
-pub(crate) fn id_of(record: &EvidenceRecord) -> &str {
-    let demonstration = record.demonstration.first().map(|d| &d.id);
-    let retraction = record.retraction.first().map(|r| &r.id);
-    let response = record.response.first().map(|r| &r.id);
-    demonstration.or(retraction).or(response).map_or("", String::as_str)
-}
-
-/// A demonstration as the core takes it.
-pub(crate) fn demonstration_from_message(message: &PlacementDemonstration) -> Result<Demonstration, ExchangeError> {
-    let scene = scene_from_message(&message.scene)?;
-    let placement_m = point_from_message("the placement", &message.placement)?;
-    Ok(Demonstration {
-        id: message.id.clone(),
-        placement: scene.normalised(placement_m),
-        scene,
-        confidence: match message.confidence {
-            PlacementDemonstration::CONFIDENCE_SURE => Confidence::Sure,
-            PlacementDemonstration::CONFIDENCE_FAIRLY => Confidence::Fairly,
-            _ => Confidence::Guess,
-        },
-    })
+/// The trajectories that a record compares.
+fn trajectories_of(record: &EvidenceRecord) -> &[FeatureTrajectory] {
+    match (record.preference.first(), record.history.first()) {
+        (Some(preference), _) => &preference.trajectories,
+        (None, Some(history)) => &history.demonstrations,
+        (None, None) => &[],
+    }
 }

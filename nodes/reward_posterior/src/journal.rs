@@ -3,23 +3,26 @@
 //! A file is the eight bytes of [`MAGIC`], then frames: kind (1 byte), length (u32, little endian), CRC-32 of the payload
 //! (u32), payload (CDR). A frame cut short by a crash is the last one, and is dropped.
 
-use apprentice_msgs::msg::{EvidenceRecord, TableScene};
+use apprentice_msgs::msg::{EvidenceRecord, TableScene, TabularWorld};
 use apprentice_msgs::{from_cdr, to_cdr};
 use thiserror::Error;
 
 /// First bytes of every journal.
 pub const MAGIC: &[u8; 8] = b"APJRNL01";
 /// Frames above this are damage, not evidence.
-const MAX_FRAME: usize = 1 << 20;
+pub(crate) const MAX_FRAME: usize = 64 << 20;
 const TASK: u8 = 0;
 const RECORD: u8 = 1;
+const WORLD: u8 = 2;
 const HEADER: usize = 9;
 
 /// One frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Entry {
-    /// The first scene of the session; names the weights.
+    /// The table that the session began with.
     Task(Box<TableScene>),
+    /// A world: the one that the session began with, or the one that the next record names.
+    World(Box<TabularWorld>),
     /// One accepted event.
     Record(Box<EvidenceRecord>),
 }
@@ -45,6 +48,7 @@ impl Entry {
     pub fn to_bytes(&self) -> Vec<u8> {
         let (kind, payload) = match self {
             Self::Task(scene) => (TASK, to_cdr(scene.as_ref())),
+            Self::World(world) => (WORLD, to_cdr(world.as_ref())),
             Self::Record(record) => (RECORD, to_cdr(record.as_ref())),
         };
         let length = u32::try_from(payload.len()).expect("evidence is far below 4 GiB");
@@ -84,6 +88,7 @@ pub fn read_journal(bytes: &[u8]) -> Result<(Vec<Entry>, usize), JournalError> {
         }
         entries.push(match header[0] {
             TASK => Entry::Task(Box::new(from_cdr(payload).map_err(|error| damaged(error.to_string()))?)),
+            WORLD => Entry::World(Box::new(from_cdr(payload).map_err(|error| damaged(error.to_string()))?)),
             RECORD => Entry::Record(Box::new(from_cdr(payload).map_err(|error| damaged(error.to_string()))?)),
             kind => return Err(damaged(format!("unknown kind {kind}"))),
         });
@@ -95,10 +100,12 @@ pub fn read_journal(bytes: &[u8]) -> Result<(Vec<Entry>, usize), JournalError> {
 #[cfg(test)]
 mod tests {
     use super::{Entry, JournalError, MAGIC, read_journal};
-    use apprentice_msgs::msg::{EvidenceRecord, TableScene};
+    use apprentice_msgs::msg::{EvidenceRecord, TableScene, TabularWorld};
 
     fn journal() -> (Vec<Entry>, Vec<u8>) {
-        let entries: Vec<Entry> = [Entry::Task(Box::new(TableScene { id: "t".into(), ..TableScene::default() }))]
+        let task = TableScene { id: "t".into(), ..TableScene::default() };
+        let world = TabularWorld { id: "w".into(), gamma: 0.5, ..TabularWorld::default() };
+        let entries: Vec<Entry> = [Entry::Task(Box::new(task)), Entry::World(Box::new(world))]
             .into_iter()
             .chain(
                 (1..4)
@@ -127,10 +134,10 @@ mod tests {
         assert!(matches!(read_journal(&bytes), Err(JournalError::Damaged { at: 8, .. })));
         bytes[0] = 0;
         assert_eq!(read_journal(&bytes), Err(JournalError::Magic));
-        let last = entries.last().expect("there are four").to_bytes().len();
+        let last = entries.last().expect("there are five").to_bytes().len();
         let (_, mut bytes) = journal();
         let end = bytes.len() - 1;
         bytes[end] ^= 1;
-        assert_eq!(read_journal(&bytes).map(|(read, used)| (read.len(), used)), Ok((3, bytes.len() - last)));
+        assert_eq!(read_journal(&bytes).map(|(read, used)| (read.len(), used)), Ok((4, bytes.len() - last)));
     }
 }

@@ -1,31 +1,43 @@
 //! The node as a state machine: evidence in; receipts, the log of evidence and posteriors out.
 
+use crate::inference::{evidence_hash, infer, model};
 use crate::journal::Entry;
-use crate::receive::{self, Open, Verdict};
+use crate::message::posterior_message;
+use crate::piece::Piece;
+use crate::preview::{Sampled, preview};
+use crate::receive::{Open, Verdict, judge};
+use crate::waiting::Waiting;
 use crate::{Evidence, Settings};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceReceipt, EvidenceRecord, PlacementDemonstration, PlacementQuery, Posterior, QueryResponse,
-    Retraction, TableScene,
+    ActionDemonstration, EvidenceLog, EvidenceReceipt, EvidenceRecord, LearnerHistory, PlacementDemonstration,
+    PlacementQuery, Posterior, PosteriorPreview, QueryResponse, Retraction, SegmentCritique, TableScene, TabularWorld,
+    TrajectoryPreference,
 };
 use apprentice_msgs::std_msgs::Header;
-use posterior::{Demonstration, Draws, Lesson, evidence_hash};
-use std::collections::VecDeque;
+use exchange::{MAX_ID, world_from_message};
+use std::sync::Arc;
 
-/// Ticks an answer to an unheard-of question is kept for, in case the question is still on its way.
-const PATIENCE_TICKS: u32 = 2;
-/// Answers to unheard-of questions kept at a time.
-const MAX_WAITING: usize = 16;
 /// Questions remembered as asked before.
 const MAX_KNOWN: usize = 1000;
 
 /// What reaches the node.
 #[derive(Debug, Clone)]
 pub enum Event {
-    /// The table as it stands; the first one names the weights.
+    /// The table as it stands; the first one is the lesson's.
     Scene(Box<TableScene>),
+    /// A world; the first one is the lesson's.
+    World(Box<TabularWorld>),
     /// A person shows where the target belongs.
     Demonstration(Box<PlacementDemonstration>),
+    /// A person shows what to do.
+    Actions(Box<ActionDemonstration>),
+    /// A person says which trajectory is better.
+    Preference(Box<TrajectoryPreference>),
+    /// A person marks what is good and what is bad.
+    Critique(Box<SegmentCritique>),
+    /// What a learner did, in the order of time.
+    History(Box<LearnerHistory>),
     /// A person takes something back.
     Retraction(Box<Retraction>),
     /// A person answers otherwise.
@@ -47,29 +59,32 @@ pub enum Output {
     Receipt(EvidenceReceipt),
     /// All accepted evidence.
     Evidence(Box<EvidenceLog>),
+    /// The world that the lesson is about: whoever sent it may be gone.
+    World(Box<TabularWorld>),
     /// The node wants [`Event::Recompute`] as soon as nothing else waits: sampling takes a while, receipts do not.
     Recompute,
+    /// What the posterior of the newest revision will be about like.
+    Preview(Box<PosteriorPreview>),
     /// The posterior of the newest revision.
     Posterior(Box<Posterior>),
     /// Something a person should know.
     Warn(String),
 }
 
-/// An answer whose question has not been heard of.
-enum Waiting {
-    Demonstration(Box<PlacementDemonstration>),
-    Response(Box<QueryResponse>),
-}
-
 /// See the crate.
 pub struct RewardPosterior {
     settings: Settings,
-    evidence: Evidence,
+    pub(crate) evidence: Evidence,
+    /// The world of the evidence, or one that it may take up next.
+    offered: Option<Box<TabularWorld>>,
     query: Option<Box<PlacementQuery>>,
     known: Vec<String>,
-    waiting: VecDeque<(u32, Waiting)>,
-    draws: Option<(String, Draws)>,
+    waiting: Waiting,
+    sampled: Option<Sampled>,
     newest: Option<Box<Posterior>>,
+    previewed: Option<u64>,
+    /// What was said last of a table or a world that cannot be used: they come again and again.
+    pub(crate) told: Option<String>,
     ticks: u32,
 }
 
@@ -79,11 +94,14 @@ impl RewardPosterior {
         Self {
             settings,
             evidence: Evidence::default(),
+            offered: None,
             query: None,
             known: Vec::new(),
-            waiting: VecDeque::new(),
-            draws: None,
+            waiting: Waiting::default(),
+            sampled: None,
             newest: None,
+            previewed: None,
+            told: None,
             ticks: 0,
         }
     }
@@ -91,29 +109,38 @@ impl RewardPosterior {
     /// Takes up a session from its journal. An error names the entry that does not fit.
     pub fn restore(&mut self, entries: Vec<Entry>) -> Result<Vec<Output>, String> {
         for (i, entry) in entries.into_iter().enumerate() {
-            match entry {
-                Entry::Task(scene) => {
-                    self.evidence.set_task(*scene).map_err(|error| format!("entry {i} of the journal: {error}"))?;
-                }
-                Entry::Record(record) if record.sequence == self.evidence.revision() + 1 => {
-                    self.evidence.append(*record);
-                }
-                Entry::Record(record) => {
-                    return Err(format!(
-                        "entry {i} of the journal has sequence {}, {} was expected",
-                        record.sequence,
-                        self.evidence.revision() + 1
-                    ));
-                }
-            }
+            self.restore_entry(entry).map_err(|error| format!("entry {i} of the journal: {error}"))?;
         }
-        self.evidence
-            .active_demonstrations()
-            .map_err(|error| format!("the journal holds unusable evidence: {error}"))?;
-        if self.evidence.task().is_none() {
+        model(&self.settings, &self.evidence)
+            .map_err(|error| format!("the journal holds evidence that is unusable with these settings: {error}"))?;
+        if self.evidence.is_blank() {
             return Ok(Vec::new());
         }
-        Ok(vec![Output::Evidence(Box::new(self.log())), Output::Recompute])
+        Ok(self.about())
+    }
+
+    /// What everybody must know of the evidence, and that the posterior is due.
+    pub(crate) fn about(&self) -> Vec<Output> {
+        let world = self.offered.clone().filter(|_| self.evidence.world().is_some());
+        let log = Output::Evidence(Box::new(self.evidence.log()));
+        world.map(Output::World).into_iter().chain([log, Output::Recompute]).collect()
+    }
+
+    pub(crate) fn restore_entry(&mut self, entry: Entry) -> Result<(), String> {
+        match entry {
+            Entry::Task(scene) => self.evidence.begin_with_table(*scene).map_err(|error| error.to_string()),
+            Entry::World(message) => {
+                let world = Arc::new(world_from_message(&message).map_err(|error| error.to_string())?);
+                self.offered = Some(message);
+                if self.evidence.is_blank() {
+                    self.evidence.begin_with_world(world);
+                } else {
+                    self.evidence.offer_world(world);
+                }
+                Ok(())
+            }
+            Entry::Record(record) => self.evidence.append(*record),
+        }
     }
 
     /// The evidence so far.
@@ -125,50 +152,42 @@ impl RewardPosterior {
     pub fn step(&mut self, _now: Time, event: Event) -> Vec<Output> {
         match event {
             Event::Scene(scene) => self.scene(*scene),
-            Event::Demonstration(message) => self.demonstration(message),
-            Event::Retraction(message) => {
-                let verdict = receive::retraction(&self.evidence, &message);
-                self.settle(&message.header, &message.id, &message.source, "retraction", verdict)
-            }
-            Event::Response(message) => self.response(message),
+            Event::World(world) => self.world(&world),
+            Event::Demonstration(message) => self.piece(Piece::Demonstration(message)),
+            Event::Actions(message) => self.piece(Piece::Actions(message)),
+            Event::Preference(message) => self.piece(Piece::Preference(message)),
+            Event::Critique(message) => self.piece(Piece::Critique(message)),
+            Event::History(message) => self.piece(Piece::History(message)),
+            Event::Retraction(message) => self.piece(Piece::Retraction(message)),
+            Event::Response(message) => self.piece(Piece::Response(message)),
             Event::Query(query) => self.asked(query),
             Event::Recompute => self.recompute(),
             Event::Tick => self.tick(),
         }
     }
 
-    fn scene(&mut self, scene: TableScene) -> Vec<Output> {
-        if self.evidence.task().is_some() {
-            return Vec::new();
-        }
-        let entry = Entry::Task(Box::new(scene.clone()));
-        match self.evidence.set_task(scene) {
-            Ok(()) => {
-                vec![Output::Journal(entry.to_bytes()), Output::Evidence(Box::new(self.log())), Output::Recompute]
-            }
-            Err(error) => vec![Output::Warn(format!("the scene is ignored: {error}"))],
-        }
+    fn judge(&self, piece: &Piece) -> Verdict {
+        judge(&self.settings, &self.evidence, self.open(), piece)
     }
 
-    fn demonstration(&mut self, message: Box<PlacementDemonstration>) -> Vec<Output> {
+    fn piece(&mut self, piece: Piece) -> Vec<Output> {
+        let mut verdict = self.judge(&piece);
         let mut outputs = Vec::new();
-        let verdict = receive::demonstration(&self.evidence, self.open(), &message);
-        if self.evidence.task().is_none() && matches!(verdict, Verdict::Accept(_)) {
+        if let (Verdict::Accept(_), Piece::Demonstration(message)) = (&verdict, &piece)
+            && self.evidence.task().is_none()
+        {
+            // Without a table yet, the lesson is about that of its first placement.
             outputs = self.scene(message.scene.clone());
+            verdict = self.judge(&piece);
         }
         if let Verdict::Unknown(_) = verdict {
-            return self.wait(message.id.clone(), Waiting::Demonstration(message));
+            if let Some(oldest) = self.waiting.add(piece) {
+                outputs.extend(self.give_up(&oldest));
+            }
+            return outputs;
         }
-        outputs.extend(self.settle(&message.header, &message.id, &message.source, "demonstration", verdict));
+        outputs.extend(self.settle(&piece, verdict));
         outputs
-    }
-
-    fn response(&mut self, message: Box<QueryResponse>) -> Vec<Output> {
-        let verdict = receive::response(&self.evidence, self.open(), &message);
-        if let Verdict::Unknown(_) = verdict {
-            return self.wait(message.id.clone(), Waiting::Response(message));
-        }
-        self.settle(&message.header, &message.id, &message.source, "response", verdict)
     }
 
     fn asked(&mut self, query: Box<PlacementQuery>) -> Vec<Output> {
@@ -181,97 +200,69 @@ impl RewardPosterior {
         if query.revision == self.evidence.revision() {
             self.query = Some(query);
         }
-        let waiting = std::mem::take(&mut self.waiting);
-        waiting.into_iter().flat_map(|(_, answer)| self.retry(answer)).collect()
+        self.look_again()
     }
 
-    fn retry(&mut self, answer: Waiting) -> Vec<Output> {
-        match answer {
-            Waiting::Demonstration(message) => self.demonstration(message),
-            Waiting::Response(message) => self.response(message),
-        }
+    /// Judges everything that waits anew.
+    pub(crate) fn look_again(&mut self) -> Vec<Output> {
+        let waiting = self.waiting.take();
+        waiting.into_iter().flat_map(|piece| self.piece(piece)).collect()
     }
 
-    fn wait(&mut self, id: String, answer: Waiting) -> Vec<Output> {
-        let same = |(_, waiting): &(u32, Waiting)| match waiting {
-            Waiting::Demonstration(message) => message.id == id,
-            Waiting::Response(message) => message.id == id,
-        };
-        if self.waiting.iter().any(same) {
-            return Vec::new();
-        }
-        let mut outputs = Vec::new();
-        if self.waiting.len() == MAX_WAITING
-            && let Some((_, oldest)) = self.waiting.pop_front()
-        {
-            outputs = self.give_up(&oldest);
-        }
-        self.waiting.push_back((PATIENCE_TICKS, answer));
-        outputs
-    }
-
-    fn give_up(&mut self, answer: &Waiting) -> Vec<Output> {
-        let (header, id, source, what, verdict) = match answer {
-            Waiting::Demonstration(m) => {
-                (&m.header, &m.id, &m.source, "demonstration", receive::demonstration(&self.evidence, self.open(), m))
+    /// Judges what has waited long enough: what it speaks of does not come.
+    fn give_up(&mut self, piece: &Piece) -> Vec<Output> {
+        let verdict = match (self.judge(piece), piece) {
+            // Nothing else names the weights, so the trajectories count them.
+            (Verdict::Unknown(_), Piece::Preference(_) | Piece::History(_)) => {
+                Verdict::Accept(Box::new(piece.record(self.evidence.revision() + 1)))
             }
-            Waiting::Response(m) => {
-                (&m.header, &m.id, &m.source, "response", receive::response(&self.evidence, self.open(), m))
-            }
+            (Verdict::Unknown(reason), _) => Verdict::Refuse(reason),
+            (verdict, _) => verdict,
         };
-        let verdict = if let Verdict::Unknown(reason) = verdict { Verdict::Refuse(reason) } else { verdict };
-        self.settle(header, id, source, what, verdict)
+        self.settle(piece, verdict)
     }
 
     fn tick(&mut self) -> Vec<Output> {
         let mut outputs = Vec::new();
-        for (patience, _) in &mut self.waiting {
-            *patience = patience.saturating_sub(1);
-        }
-        while self.waiting.front().is_some_and(|(patience, _)| *patience == 0) {
-            if let Some((_, answer)) = self.waiting.pop_front() {
-                outputs.extend(self.give_up(&answer));
-            }
+        for piece in self.waiting.tick() {
+            outputs.extend(self.give_up(&piece));
         }
         self.ticks += 1;
         if f64::from(self.ticks) >= self.settings.republish_period_s {
             self.ticks = 0;
-            if self.evidence.task().is_some() {
-                outputs.push(Output::Evidence(Box::new(self.log())));
+            if !self.evidence.is_blank() {
+                outputs.push(Output::Evidence(Box::new(self.evidence.log())));
             }
             outputs.extend(self.newest.clone().map(Output::Posterior));
         }
         outputs
     }
 
-    fn settle(&mut self, header: &Header, id: &str, source: &str, what: &str, verdict: Verdict) -> Vec<Output> {
+    fn settle(&mut self, piece: &Piece, verdict: Verdict) -> Vec<Output> {
+        let short = |text: &str| text.chars().take(MAX_ID).collect::<String>();
         let receipt = |outcome, reason: String, revision| {
-            let header = Header { stamp: header.stamp, frame_id: String::new() };
-            Output::Receipt(EvidenceReceipt { header, id: id.chars().take(128).collect(), outcome, reason, revision })
+            let header = Header { stamp: piece.header().stamp, frame_id: String::new() };
+            Output::Receipt(EvidenceReceipt { header, id: short(piece.id()), outcome, reason, revision })
         };
         match verdict {
             Verdict::Accept(record) => {
                 let revision = record.sequence;
                 let journal = Entry::Record(record.clone()).to_bytes();
-                self.evidence.append(*record);
+                self.evidence.append(*record).expect("it was checked just now");
                 self.query = None;
                 vec![
                     Output::Journal(journal),
                     receipt(EvidenceReceipt::ACCEPTED, String::new(), revision),
-                    Output::Evidence(Box::new(self.log())),
+                    Output::Evidence(Box::new(self.evidence.log())),
                     Output::Recompute,
                 ]
             }
             Verdict::Duplicate(revision) => {
-                vec![receipt(
-                    EvidenceReceipt::DUPLICATE,
-                    format!("it was accepted before, as revision {revision}"),
-                    revision,
-                )]
+                let reason = format!("it was accepted before, as revision {revision}");
+                vec![receipt(EvidenceReceipt::DUPLICATE, reason, revision)]
             }
             Verdict::Refuse(reason) | Verdict::Unknown(reason) => {
-                let id: String = id.chars().take(128).collect();
-                let source: String = source.chars().take(128).collect();
+                let (what, id, source) = (piece.what(), short(piece.id()), short(piece.source()));
                 let warning = format!("{what} '{id}' from '{source}' is refused: {reason}");
                 vec![receipt(EvidenceReceipt::REFUSED, reason, 0), Output::Warn(warning)]
             }
@@ -279,112 +270,80 @@ impl RewardPosterior {
     }
 
     fn recompute(&mut self) -> Vec<Output> {
-        let Some(scene) = self.evidence.newest_scene().cloned() else { return Vec::new() };
-        if self.newest.as_ref().is_some_and(|newest| newest.revision == self.evidence.revision()) {
+        let revision = self.evidence.revision();
+        if !self.evidence.weights().are_known()
+            || self.newest.as_ref().is_some_and(|newest| newest.revision == revision)
+        {
             return Vec::new();
         }
-        let demonstrations = match self.evidence.active_demonstrations() {
-            Ok(demonstrations) => demonstrations,
-            Err(error) => {
-                return vec![Output::Warn(format!("no posterior, because the evidence is unusable: {error}"))];
-            }
-        };
-        let names = self.evidence.feature_names();
-        let hash: String = evidence_hash(&demonstrations).iter().map(|byte| format!("{byte:02x}")).collect();
-        let draws = match self.draws.take() {
-            // A skipped question changes nothing that the draws depend on.
-            Some((of, draws)) if of == hash => draws,
-            _ => match self.sample(&demonstrations) {
-                Ok(draws) => draws,
-                Err(error) => return vec![Output::Warn(format!("no posterior: {error}"))],
-            },
-        };
-        let message = Box::new(self.message(scene, names, &hash, demonstrations.len(), &draws));
-        self.draws = Some((hash, draws));
-        self.newest = Some(message.clone());
-        vec![Output::Posterior(message)]
-    }
-
-    fn sample(&self, demonstrations: &[Demonstration]) -> Result<Draws, String> {
-        let (_, task) = self.evidence.task().ok_or("no scene has named the weights yet")?;
-        let (settings, seed) = (self.settings.sampler(), self.settings.seed.unsigned_abs());
-        posterior::sample(&settings, seed, &Lesson::new(task), demonstrations).map_err(|error| error.to_string())
-    }
-
-    fn message(&self, scene: TableScene, names: Vec<String>, hash: &str, n: usize, draws: &Draws) -> Posterior {
-        let (outcome, reason) = if draws.rhat_max <= risk::MAX_RHAT {
-            (Posterior::READY, String::new())
-        } else {
-            let reason = format!(
-                "R-hat of the weights is {:.3}, at most {} is allowed; raise n_draws",
-                draws.rhat_max,
-                risk::MAX_RHAT
-            );
-            (Posterior::NOT_MIXED, reason)
-        };
-        let n_draws = draws.n_chains * draws.per_chain;
-        Posterior {
-            header: self.evidence.header(),
-            revision: self.evidence.revision(),
-            evidence_hash: hash.to_owned(),
-            n_demonstrations: n as u64,
-            n_answers: self.evidence.n_answers(),
-            stopped: self.evidence.stopped(),
-            task: self.evidence.task().map(|(message, _)| message.clone()).unwrap_or_default(),
-            scene,
-            outcome,
-            reason,
-            feature_names: names,
-            n_chains: u32::try_from(draws.n_chains).unwrap_or(u32::MAX),
-            n_draws: u32::try_from(n_draws).unwrap_or(u32::MAX),
-            draws: draws.values.clone(),
-            map_weights: draws.map_weights.clone(),
-            map_log_likelihood: draws.map_log_likelihood,
-            log_likelihood_mean: draws.log_likelihood_mean(),
-            rhat_max: draws.rhat_max,
-            ess_bulk_min: draws.ess_bulk_min,
-            ess_tail_min: draws.ess_tail_min,
-            acceptance: draws.acceptance,
-            beta: self.settings.beta,
-            prior: self.settings.prior.name().to_owned(),
-            seed: self.settings.seed.unsigned_abs(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+        // A preview goes out first; the draws themselves never depend on it.
+        if self.previewed != Some(revision)
+            && let Some(output) = self.preview(&self.evidence)
+        {
+            self.previewed = Some(revision);
+            return vec![output, Output::Recompute];
         }
+        match self.compute() {
+            Ok(message) => vec![Output::Posterior(message)],
+            Err(reason) => vec![Output::Warn(format!("no posterior: {reason}"))],
+        }
+    }
+
+    /// The posterior of the newest revision. `None` while nothing has said how many weights there are.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn posterior(&mut self) -> Result<Option<Posterior>, String> {
+        if self.evidence.weights().are_known() { self.compute().map(|message| Some(*message)) } else { Ok(None) }
+    }
+
+    fn compute(&mut self) -> Result<Box<Posterior>, String> {
+        let digest = evidence_hash(&self.evidence);
+        let hash = hex(&digest);
+        let draws = match self.sampled.take() {
+            // A skipped question changes nothing that the draws depend on.
+            Some(sampled) if sampled.hash == hash => sampled.draws,
+            _ => infer(&self.settings, &self.evidence, &digest)?,
+        };
+        let message = Box::new(posterior_message(&self.settings, &self.evidence, hash.clone(), &draws));
+        self.sampled = Some(Sampled { hash, evidence: self.evidence.clone(), draws });
+        self.newest = Some(message.clone());
+        Ok(message)
+    }
+
+    /// The preview that goes out when the records come after the newest posterior.
+    ///
+    /// # Errors
+    /// A record that does not follow.
+    pub fn preview_after(&self, records: &[EvidenceRecord]) -> Result<Option<PosteriorPreview>, String> {
+        let mut evidence = self.evidence.clone();
+        records.iter().try_for_each(|record| evidence.append(record.clone()))?;
+        match self.preview(&evidence) {
+            Some(Output::Preview(message)) => Ok(Some(*message)),
+            Some(Output::Warn(text)) => Err(text),
+            _ => Ok(None),
+        }
+    }
+
+    fn preview(&self, evidence: &Evidence) -> Option<Output> {
+        let sampled = self.sampled.as_ref().filter(|_| self.settings.preview_draws > 0)?;
+        let base_revision = self.newest.as_ref()?.revision;
+        let hash = hex(&evidence_hash(evidence));
+        if sampled.hash == hash {
+            return None;
+        }
+        Some(match preview(&self.settings, evidence, hash, sampled, base_revision) {
+            Ok(message) => Output::Preview(Box::new(message)),
+            Err(reason) => Output::Warn(format!("no preview: {reason}")),
+        })
     }
 
     fn open(&self) -> Open<'_> {
         let query = self.query.as_deref().filter(|query| query.revision == self.evidence.revision());
         Open { query, known: &self.known }
     }
-
-    fn log(&self) -> EvidenceLog {
-        EvidenceLog {
-            header: self.evidence.header(),
-            task: self.evidence.task().map(|(message, _)| message.clone()).unwrap_or_default(),
-            records: self.evidence.records().to_vec(),
-        }
-    }
 }
 
-/// Feeds a node the task and the records of a log, as they were accepted, and gives the posterior after each: revisions
-/// 0, 1, … in order. An error ends it.
-///
-/// What a replay does; the rules of acceptance are not applied again, since which question was open is not in the log.
-pub fn replay_records(
-    settings: Settings,
-    task: TableScene,
-    records: &[EvidenceRecord],
-) -> impl Iterator<Item = Result<Posterior, String>> {
-    let mut node = RewardPosterior::new(settings);
-    let entries = [Entry::Task(Box::new(task))]
-        .into_iter()
-        .chain(records.iter().map(|record| Entry::Record(Box::new(record.clone()))));
-    entries.map(move |entry| {
-        node.restore(vec![entry])?;
-        match node.recompute().pop() {
-            Some(Output::Posterior(posterior)) => Ok(*posterior),
-            Some(Output::Warn(text)) => Err(text),
-            _ => Err("it has no posterior".into()),
-        }
-    })
+fn hex(digest: &[u8; 32]) -> String {
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }

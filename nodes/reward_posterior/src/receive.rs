@@ -1,18 +1,29 @@
 //! What may become evidence: one rule after the other, each with the sentence a person reads when it is broken.
 
-use crate::Evidence;
-use crate::evidence::{demonstration_from_message, id_of};
-use apprentice_msgs::msg::{EvidenceRecord, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction};
-use apprentice_msgs::std_msgs::Header;
-use exchange::scene_from_message;
+use crate::inference::demonstration_from_message;
+use crate::piece::{Piece, unstamped};
+use crate::{Evidence, Settings};
+use apprentice_msgs::msg::{
+    EvidenceRecord, FeatureTrajectory, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction,
+    TrajectoryPreference,
+};
+use apprentice_msgs::to_cdr;
+use exchange::{
+    MAX_ID, MAX_WEIGHTS, World, check_history, check_preference, confidence_from_message, marks_from_message,
+    record_id, scene_from_message, steps_from_message,
+};
+use posterior::MAX_DEMONSTRATIONS;
 use scene::{Point, Rbf, Scene};
+use std::collections::HashMap;
 
-/// Longer ids are refused.
-const MAX_ID: usize = 128;
 /// Longer free texts are refused.
 const MAX_TEXT: usize = 4096;
 /// A session holds at most this many accepted events.
 pub(crate) const MAX_RECORDS: usize = 10_000;
+/// A session holds at most this many bytes of accepted events: all of them go out again with every new one.
+pub(crate) const MAX_BYTES: usize = 8 << 20;
+/// A session holds at most this many compared pairs of trajectories in force.
+const MAX_PAIRS: usize = 200_000;
 
 /// What is to be done with something that came in.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +34,7 @@ pub(crate) enum Verdict {
     Duplicate(u64),
     /// It is not, for this reason.
     Refuse(String),
-    /// It answers a question that has not been heard of: the question may still be on its way.
+    /// It speaks of something that has not been heard of, which may still be on its way.
     Unknown(String),
 }
 
@@ -36,91 +47,138 @@ pub(crate) struct Open<'a> {
     pub known: &'a [String],
 }
 
-/// Judges a demonstration.
-pub(crate) fn demonstration(evidence: &Evidence, open: Open<'_>, message: &PlacementDemonstration) -> Verdict {
-    let record = EvidenceRecord {
-        sequence: evidence.revision() + 1,
-        kind: EvidenceRecord::DEMONSTRATION,
-        demonstration: vec![message.clone()],
-        ..EvidenceRecord::default()
-    };
+/// Judges what came in.
+pub(crate) fn judge(settings: &Settings, evidence: &Evidence, open: Open<'_>, piece: &Piece) -> Verdict {
+    let record = piece.record(evidence.revision() + 1);
     let checked = || -> Result<(), Verdict> {
         known(evidence, &record)?;
-        texts(&[&message.source])?;
-        if message.confidence > PlacementDemonstration::CONFIDENCE_GUESS {
-            return refuse(format!(
-                "its confidence is {}; 0 (sure), 1 (fairly) and 2 (a guess) are known",
-                message.confidence
-            ));
-        }
-        let core = demonstration_from_message(message).map_err(|error| Verdict::Refuse(error.to_string()))?;
-        same_features(evidence, &core.scene)?;
-        let at = Point::new(message.placement.x, message.placement.y);
-        if let Some(obstruction) = core.scene.occupied().reason(at) {
-            return refuse(format!(
-                "the {} cannot be at ({}, {}) m: {obstruction}",
-                core.scene.target.label, at.x, at.y
-            ));
-        }
-        if !message.query_id.is_empty() {
-            let query = is_open(open, &message.query_id)?;
-            let asked = scene_from_message(&query.scene).map_err(|error| Verdict::Refuse(error.to_string()))?;
-            if asked.objects != core.scene.objects || asked.target.shape != core.scene.target.shape {
-                return refuse(format!("its scene is not the one that question '{}' asks about", query.id));
+        texts(&piece.texts())?;
+        match piece {
+            Piece::Demonstration(message) => demonstration(evidence, open, message),
+            Piece::Retraction(message) => retraction(evidence, message),
+            Piece::Response(message) => response(open, message),
+            Piece::Actions(message) => steps_from_message(message, world(evidence)?).map(drop).map_err(refusal),
+            Piece::Critique(message) => marks_from_message(message, world(evidence)?).map(drop).map_err(refusal),
+            Piece::Preference(message) => {
+                compared(evidence, &message.trajectories, |n| check_preference(message, n).map_err(refusal))?;
+                is_expected(settings, message)?;
+                named(evidence)
             }
-        }
-        Ok(())
-    };
-    checked().err().unwrap_or(Verdict::Accept(Box::new(record.clone())))
-}
-
-/// Judges a retraction.
-pub(crate) fn retraction(evidence: &Evidence, message: &Retraction) -> Verdict {
-    let record = EvidenceRecord {
-        sequence: evidence.revision() + 1,
-        kind: EvidenceRecord::RETRACTION,
-        retraction: vec![message.clone()],
-        ..EvidenceRecord::default()
-    };
-    let checked = || -> Result<(), Verdict> {
-        known(evidence, &record)?;
-        texts(&[&message.source, &message.reason])?;
-        let id = shown(&message.evidence_id);
-        match evidence.find(&message.evidence_id) {
-            None => refuse(format!("'{id}', which it takes back, has not been accepted")),
-            Some(record) if record.kind == EvidenceRecord::RETRACTION => {
-                refuse(format!("'{id}' is itself a retraction; send the evidence again with a new id instead"))
+            Piece::History(message) => {
+                compared(evidence, &message.demonstrations, |n| check_history(message, n).map_err(refusal))?;
+                named(evidence)
             }
-            Some(_) if evidence.is_retracted(&message.evidence_id) => {
-                refuse(format!("'{id}' has been taken back before"))
-            }
-            Some(_) => Ok(()),
         }
     };
     checked().err().unwrap_or(Verdict::Accept(Box::new(record.clone())))
 }
 
-/// Judges a response.
-pub(crate) fn response(evidence: &Evidence, open: Open<'_>, message: &QueryResponse) -> Verdict {
-    let record = EvidenceRecord {
-        sequence: evidence.revision() + 1,
-        kind: EvidenceRecord::RESPONSE,
-        response: vec![message.clone()],
-        ..EvidenceRecord::default()
-    };
-    let checked = || -> Result<(), Verdict> {
-        known(evidence, &record)?;
-        texts(&[&message.source, &message.reason])?;
-        if message.kind > QueryResponse::STOP {
-            return refuse(format!("its kind is {}; 0 (skip), 1 (can't tell) and 2 (stop) are known", message.kind));
+fn demonstration(evidence: &Evidence, open: Open<'_>, message: &PlacementDemonstration) -> Result<(), Verdict> {
+    confidence_from_message(message.confidence).map_err(refusal)?;
+    if evidence.placements().count() >= MAX_DEMONSTRATIONS {
+        return refuse(format!("the session holds {MAX_DEMONSTRATIONS} placements, which is all it takes"));
+    }
+    let core = demonstration_from_message(message).map_err(refusal)?;
+    same_features(evidence, &core.scene)?;
+    let at = Point::new(message.placement.x, message.placement.y);
+    if let Some(obstruction) = core.scene.occupied().reason(at) {
+        return refuse(format!("the {} cannot be at ({}, {}) m: {obstruction}", core.scene.target.label, at.x, at.y));
+    }
+    if !message.query_id.is_empty() {
+        let query = is_open(open, &message.query_id)?;
+        let asked = scene_from_message(&query.scene).map_err(refusal)?;
+        if asked.objects != core.scene.objects || asked.target.shape != core.scene.target.shape {
+            return refuse(format!("its scene is not the one that question '{}' asks about", query.id));
         }
-        // Stopping must work whatever is being asked.
-        if message.kind != QueryResponse::STOP {
-            is_open(open, &message.query_id)?;
+    }
+    Ok(())
+}
+
+fn retraction(evidence: &Evidence, message: &Retraction) -> Result<(), Verdict> {
+    let id = shown(&message.evidence_id);
+    match evidence.find(&message.evidence_id) {
+        None => refuse(format!("'{id}', which it takes back, has not been accepted")),
+        Some(record) if record.kind == EvidenceRecord::RETRACTION => {
+            refuse(format!("'{id}' is itself a retraction; send the evidence again with a new id instead"))
         }
-        Ok(())
+        Some(_) if evidence.is_retracted(&message.evidence_id) => refuse(format!("'{id}' has been taken back before")),
+        Some(_) => Ok(()),
+    }
+}
+
+fn response(open: Open<'_>, message: &QueryResponse) -> Result<(), Verdict> {
+    if message.kind > QueryResponse::STOP {
+        return refuse(format!("its kind is {}; 0 (skip), 1 (can't tell) and 2 (stop) are known", message.kind));
+    }
+    // Stopping must work whatever is being asked.
+    if message.kind != QueryResponse::STOP {
+        is_open(open, &message.query_id)?;
+    }
+    Ok(())
+}
+
+fn world(evidence: &Evidence) -> Result<&World, Verdict> {
+    evidence.world().ok_or_else(|| Verdict::Unknown("no world has been received that it could be about".into()))
+}
+
+/// Trajectories that can be compared with each other and with those of the evidence in force.
+fn compared(
+    evidence: &Evidence,
+    trajectories: &[FeatureTrajectory],
+    check: impl Fn(usize) -> Result<(), Verdict>,
+) -> Result<(), Verdict> {
+    // The first trajectories of a session count its weights.
+    let counted = trajectories.first().map_or(1, |trajectory| trajectory.features.len());
+    let names = evidence.feature_names();
+    if names.is_empty() && !(1..=MAX_WEIGHTS).contains(&counted) {
+        return refuse(format!("its trajectories have {counted} features; 1 to {MAX_WEIGHTS} are supported"));
+    }
+    check(if names.is_empty() { counted } else { names.len() })?;
+    let same: HashMap<&str, &FeatureTrajectory> =
+        evidence.trajectories().map(|known| (known.id.as_str(), known)).collect();
+    if let Some(other) =
+        trajectories.iter().find(|new| same.get(new.id.as_str()).is_some_and(|known| known.features != new.features))
+    {
+        return refuse(format!(
+            "trajectory '{}' had other features before; ids of trajectories must be unique",
+            other.id
+        ));
+    }
+    let pairs = |n: usize| n * (n - 1) / 2;
+    let held: usize = evidence.preferences().map(|m| pairs(m.trajectories.len())).sum::<usize>()
+        + evidence.histories().map(|m| pairs(m.demonstrations.len())).sum::<usize>();
+    if held + pairs(trajectories.len()) > MAX_PAIRS {
+        return refuse(format!(
+            "it compares {} pairs of trajectories and the session holds {held}; at most {MAX_PAIRS} are supported",
+            pairs(trajectories.len())
+        ));
+    }
+    Ok(())
+}
+
+/// An answer that the settings leave no probability for would rule every reward out.
+fn is_expected(settings: &Settings, message: &TrajectoryPreference) -> Result<(), Verdict> {
+    let (words, parameter, value) = match message.answer {
+        TrajectoryPreference::EQUAL => ("about equal", "equal_threshold", settings.equal_threshold),
+        TrajectoryPreference::CANT_TELL => ("can't tell", "cant_tell", settings.cant_tell),
+        _ => return Ok(()),
     };
-    checked().err().unwrap_or(Verdict::Accept(Box::new(record.clone())))
+    if value > 0.0 {
+        return Ok(());
+    }
+    refuse(format!("it says '{words}', which is not expected while {parameter} is 0"))
+}
+
+/// Trajectories may be the first to tell how many weights there are, but a table or a world may still be on its way.
+fn named(evidence: &Evidence) -> Result<(), Verdict> {
+    if evidence.weights().are_known() {
+        return Ok(());
+    }
+    Err(Verdict::Unknown("neither a table nor a world has named the weights".into()))
+}
+
+fn refusal(error: impl std::fmt::Display) -> Verdict {
+    Verdict::Refuse(error.to_string())
 }
 
 fn refuse<T>(reason: String) -> Result<T, Verdict> {
@@ -133,12 +191,13 @@ fn shown(id: &str) -> String {
 }
 
 fn known(evidence: &Evidence, record: &EvidenceRecord) -> Result<(), Verdict> {
-    let id = id_of(record);
+    let id = record_id(record);
     if id.is_empty() || id.len() > MAX_ID {
         return refuse(format!("its id has {} characters; 1 to {MAX_ID} are allowed", id.len()));
     }
     if let Some(before) = evidence.find(id) {
-        return if same(before, record) {
+        // A sender may stamp a repetition anew.
+        return if unstamped(before) == unstamped(record) {
             Err(Verdict::Duplicate(before.sequence))
         } else {
             refuse(format!("its id '{id}' was used before for other evidence; ids must be unique"))
@@ -147,27 +206,16 @@ fn known(evidence: &Evidence, record: &EvidenceRecord) -> Result<(), Verdict> {
     if evidence.records().len() >= MAX_RECORDS {
         return refuse(format!("the session holds {MAX_RECORDS} events, which is all it takes; start a new session"));
     }
+    let n_bytes = to_cdr(record).len();
+    // A person can always take something back, or stop.
+    let is_small = [EvidenceRecord::RETRACTION, EvidenceRecord::RESPONSE].contains(&record.kind);
+    if evidence.n_bytes() + n_bytes > MAX_BYTES && !is_small {
+        return refuse(format!(
+            "it has {n_bytes} bytes and the session holds {}; {MAX_BYTES} are all it takes",
+            evidence.n_bytes()
+        ));
+    }
     Ok(())
-}
-
-/// Whether two records say the same; a sender may stamp a repetition anew.
-fn same(a: &EvidenceRecord, b: &EvidenceRecord) -> bool {
-    let plain = |record: &EvidenceRecord| {
-        let mut record = record.clone();
-        record.sequence = 0;
-        for demonstration in &mut record.demonstration {
-            demonstration.header = Header::default();
-            demonstration.scene.header = Header::default();
-        }
-        for retraction in &mut record.retraction {
-            retraction.header = Header::default();
-        }
-        for response in &mut record.response {
-            response.header = Header::default();
-        }
-        record
-    };
-    plain(a) == plain(b)
 }
 
 fn texts(texts: &[&str]) -> Result<(), Verdict> {
@@ -178,7 +226,13 @@ fn texts(texts: &[&str]) -> Result<(), Verdict> {
 }
 
 fn same_features(evidence: &Evidence, scene: &Scene) -> Result<(), Verdict> {
-    let Some((_, task)) = evidence.task() else { return Ok(()) };
+    let Some((_, task)) = evidence.task() else {
+        let n = Rbf::new(scene).n();
+        return evidence
+            .weights()
+            .fit(n)
+            .map_err(|reason| Verdict::Refuse(format!("its table does not fit: {reason}")));
+    };
     if task.target.id != scene.target.id {
         return refuse(format!("it places '{}', but this lesson is about '{}'", scene.target.id, task.target.id));
     }

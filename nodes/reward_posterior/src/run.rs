@@ -2,7 +2,7 @@
 
 use crate::journal::{MAGIC, read_journal};
 use crate::{Event, Output, RewardPosterior, Settings};
-use apprentice_msgs::msg::{EvidenceLog, EvidenceReceipt, Posterior};
+use apprentice_msgs::msg::{EvidenceLog, EvidenceReceipt, Posterior, PosteriorPreview, TabularWorld};
 use bus::{Arguments, Bus, Graph, Level, NodeError, Publisher, Qos};
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};
@@ -22,11 +22,18 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
         path: settings.journal.clone(),
         receipt: bus.publisher("receipt", Qos::Event)?,
         evidence: bus.publisher("evidence", Qos::State)?,
+        world: bus.publisher("lesson_world", Qos::State)?,
+        preview: bus.publisher("posterior_preview", Qos::State)?,
         posterior: bus.publisher("posterior", Qos::State)?,
     };
     bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
+    bus.subscribe("world", Qos::State, |message| Event::World(Box::new(message)))?;
     bus.subscribe("demonstration", Qos::Event, |message| Event::Demonstration(Box::new(message)))?;
+    bus.subscribe("action_demonstration", Qos::Event, |message| Event::Actions(Box::new(message)))?;
+    bus.subscribe("preference", Qos::Event, |message| Event::Preference(Box::new(message)))?;
+    bus.subscribe("critique", Qos::Event, |message| Event::Critique(Box::new(message)))?;
+    bus.subscribe("learner_history", Qos::Event, |message| Event::History(Box::new(message)))?;
     bus.subscribe("retraction", Qos::Event, |message| Event::Retraction(Box::new(message)))?;
     bus.subscribe("response", Qos::Event, |message| Event::Response(Box::new(message)))?;
     bus.every(Duration::from_secs(1), || Event::Tick);
@@ -56,6 +63,8 @@ struct Out {
     path: String,
     receipt: Publisher<EvidenceReceipt>,
     evidence: Publisher<EvidenceLog>,
+    world: Publisher<TabularWorld>,
+    preview: Publisher<PosteriorPreview>,
     posterior: Publisher<Posterior>,
 }
 
@@ -72,11 +81,14 @@ impl Out {
             }
             Output::Receipt(message) => self.receipt.publish(&message)?,
             Output::Evidence(message) => self.evidence.publish(&message)?,
+            Output::World(message) => self.world.publish(&message)?,
+            Output::Preview(message) => self.preview.publish(&message)?,
             Output::Posterior(message) => {
                 let level = if message.outcome == Posterior::READY { Level::Ok } else { Level::Warn };
                 let facts = [
                     ("revision", message.revision.to_string()),
-                    ("demonstrations", message.n_demonstrations.to_string()),
+                    ("evidence", message.rationalities.iter().map(|of| of.n).sum::<u64>().to_string()),
+                    ("preference_cycles", message.cycles.len().to_string()),
                     ("rhat_max", message.rhat_max.to_string()),
                     ("ess_bulk_min", message.ess_bulk_min.to_string()),
                     ("acceptance", message.acceptance.to_string()),

@@ -109,7 +109,9 @@ impl Classroom {
     pub fn hold(&self, seed: u64, n_tests: usize) -> Result<Held, LessonError> {
         let signed = i64::try_from(seed).unwrap_or(i64::MAX);
         let person = Person::new(&demonstrator::Settings { seed: signed, ..self.person.clone() });
-        let mut posterior = RewardPosterior::new(reward_posterior::Settings { seed: signed, ..self.posterior.clone() });
+        // Nobody looks at previews here.
+        let settings = reward_posterior::Settings { seed: signed, preview_draws: 0, ..self.posterior.clone() };
+        let mut posterior = RewardPosterior::new(settings);
         let mut bounds = PerformanceBoundsNode::new(self.bounds.clone());
         let mut query = ActiveQuery::new(active_query::Settings { seed: signed, ..self.query.clone() });
         let tests = test_tables(&self.task, n_tests, seed);
@@ -129,7 +131,7 @@ impl Classroom {
                 for output in bounds.step(now, performance_bounds::Event::Candidates(Box::new(candidates))) {
                     match output {
                         performance_bounds::Output::Bounds(bounds) => judged = Some(bounds),
-                        performance_bounds::Output::Warn(text) => return Err(unexpected(text)),
+                        other => return Err(unexpected(format!("{other:?}"))),
                     }
                 }
             }
