@@ -1,13 +1,12 @@
 //! Figure 4.2: bounds on the loss of the policy learned from perfect demonstrations, by number of demonstrations.
 
 use crate::chapter4::{
-    ALPHAS, BoundKind, Demonstration, Demonstrator, Evidence, Judged, PERFECT, Problem, Quality, accuracy, at_least_alpha, believe,
-    demonstrate, error, paired_errors, purpose, walk, without_bound,
+    ALPHAS, BoundKind, Demonstration, Demonstrator, Evidence, Judged, PERFECT, Problem, Quality, accuracy,
+    at_least_alpha, believe, demonstrate, error, paired_errors, purpose, walk, without_bound,
 };
 use crate::harness::plot::{Content, Panel, Picture, Series, Style};
 use crate::harness::{
-    Claim, Estimate, Options, Outcome, ReproductionError, TextTable, generator, replicates, to_value,
-    uniformity,
+    Claim, Estimate, Options, Outcome, ReproductionError, TextTable, generator, replicates, to_value, uniformity,
 };
 use mdp::random::uniform;
 use posterior::Rationality;
@@ -78,7 +77,8 @@ fn one(seed: u64, replicate: usize) -> Result<Vec<Cell>, ReproductionError> {
     let problem = Problem::new(seed, replicate)?;
     let mdp = &problem.mdp;
     let most = SHOWN[SHOWN.len() - 1];
-    let all = demonstrate(&problem, Demonstrator::Optimal, most, &mut generator(seed, replicate, purpose::DEMONSTRATIONS))?;
+    let all =
+        demonstrate(&problem, Demonstrator::Optimal, most, &mut generator(seed, replicate, purpose::DEMONSTRATIONS))?;
     let mut boltzmann = generator(seed, replicate, purpose::BOLTZMANN);
     let noisy = demonstrate(&problem, Demonstrator::Boltzmann(BETA), most, &mut boltzmann)?;
     let mut walks = generator(seed, replicate, purpose::WALK);
@@ -158,9 +158,11 @@ fn tables(columns: &[Vec<Cell>]) -> Vec<TextTable> {
     for (name, judged) in rows {
         policies.row(name, columns.iter().map(|column| of(&pick(column, judged))));
     }
-    let none = |c: &Vec<Cell>| without_bound(&pick(c, |cell| cell.ours_least_risk), BoundKind::ValueAtRisk(0)).to_string();
+    let none =
+        |c: &Vec<Cell>| without_bound(&pick(c, |cell| cell.ours_least_risk), BoundKind::ValueAtRisk(0)).to_string();
     policies.row("replicates without a .99 bound, least risk", columns.iter().map(none));
-    let head: Vec<String> = std::iter::once("share of bounds that hold".into()).chain(CALIBRATED.map(|n| n.to_string())).collect();
+    let head: Vec<String> =
+        std::iter::once("share of bounds that hold".into()).chain(CALIBRATED.map(|n| n.to_string())).collect();
     let mut calibrated = TextTable::new("Boltzmann demonstrator (β = 100), judged by its own model", &head);
     let tried = calibrated_columns(columns);
     for (i, alpha) in ALPHAS.into_iter().enumerate() {
@@ -190,9 +192,9 @@ fn claims(columns: &[Vec<Cell>], seed: u64) -> Vec<Claim> {
     let ours: Vec<Vec<Judged>> = columns.iter().map(|c| pick(c, |cell| cell.ours_least_risk)).collect();
     let tried = calibrated_columns(columns);
     let model: Vec<Vec<Judged>> = tried.iter().map(|column| judged(column)).collect();
-    let ordered = published.iter().all(|judged| {
-        BoundKind::ALL.windows(2).all(|pair| error(judged, pair[0]).mean > error(judged, pair[1]).mean)
-    });
+    let ordered = published
+        .iter()
+        .all(|judged| BoundKind::ALL.windows(2).all(|pair| error(judged, pair[0]).mean > error(judged, pair[1]).mean));
     claims.push(Claim::matched("errors are ordered WFCB > .99 > .95 > .90", ordered, "as published, at every number"));
     claims.push(at_least_alpha("as published: accuracy ≥ α", &published, Claim::matched));
     claims.push(at_least_alpha("ours: accuracy ≥ α", &ours, Claim::beaten));
@@ -246,7 +248,13 @@ fn picture(columns: &[Vec<Cell>]) -> Picture {
     Picture {
         title: "Figure 4.2: bounds on policy loss, perfect demonstrations (error bars: ± 1 s.e.)".into(),
         content: Content::Panels(vec![
-            panel("accuracy: share of bounds that hold", [0.88, 1.0], false, ALPHAS.to_vec(), series(accuracy, |p| p.0)),
+            panel(
+                "accuracy: share of bounds that hold",
+                [0.88, 1.0],
+                false,
+                ALPHAS.to_vec(),
+                series(accuracy, |p| p.0),
+            ),
             panel("bound − true loss (return, log scale)", [0.005, 2.0], true, vec![], series(error, |p| p.1)),
         ]),
     }

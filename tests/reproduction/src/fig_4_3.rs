@@ -110,15 +110,22 @@ fn tables(columns: &[Vec<Cell>]) -> Vec<TextTable> {
     let both = |judged: &[Judged], kind| format!("{:.3} / {}", accuracy(judged, kind).mean, error(judged, kind).text());
     let printed = |(accuracy, error): (f64, f64)| format!("{accuracy:.3} / {error:.2}");
     table.row("WFCB author", AUTHOR_WORST_CASE.map(printed));
-    table.row("WFCB as published, β = 10", columns.iter().map(|c| both(&pick(c, |cell| cell.published[3]), BoundKind::WorstCase)));
+    table.row(
+        "WFCB as published, β = 10",
+        columns.iter().map(|c| both(&pick(c, |cell| cell.published[3]), BoundKind::WorstCase)),
+    );
     for (i, beta) in BETAS.into_iter().enumerate() {
         table.row(format!("β = {beta} author"), AUTHOR[i].map(printed));
-        table.row(format!("β = {beta} as published"), columns.iter().map(|c| both(&pick(c, |cell| cell.published[i]), KIND)));
+        table.row(
+            format!("β = {beta} as published"),
+            columns.iter().map(|c| both(&pick(c, |cell| cell.published[i]), KIND)),
+        );
     }
     table.row("learned β", columns.iter().map(|c| both(&pick(c, |cell| cell.learned), KIND)));
     table.row("learned β, carelessness known", columns.iter().map(|c| both(&pick(c, |cell| cell.distracted), KIND)));
     let mut detail = TextTable::new("Learned β in detail", &["", "1 demo", "5", "9"]);
-    let mean = |column: &Vec<Cell>, of: fn(&Cell) -> f64| Estimate::of(&column.iter().map(of).collect::<Vec<f64>>()).text();
+    let mean =
+        |column: &Vec<Cell>, of: fn(&Cell) -> f64| Estimate::of(&column.iter().map(of).collect::<Vec<f64>>()).text();
     detail.row("mean of β", columns.iter().map(|c| mean(c, |cell| cell.learned_quality.beta)));
     detail.row("mean of β, carelessness known", columns.iter().map(|c| mean(c, |cell| cell.distracted_quality.beta)));
     detail.row("true loss, β = 10 as published", columns.iter().map(|c| mean(c, |cell| cell.published[3].loss)));
@@ -131,7 +138,8 @@ fn tables(columns: &[Vec<Cell>]) -> Vec<TextTable> {
 }
 
 fn claims(columns: &[Vec<Cell>], seed: u64) -> Vec<Claim> {
-    let published = |i: usize| -> Vec<Vec<Judged>> { columns.iter().map(|c| pick(c, |cell| cell.published[i])).collect() };
+    let published =
+        |i: usize| -> Vec<Vec<Judged>> { columns.iter().map(|c| pick(c, |cell| cell.published[i])).collect() };
     let shares = |judged: &[Vec<Judged>]| -> Vec<Estimate> { judged.iter().map(|j| accuracy(j, KIND)).collect() };
     let list = |shares: &[Estimate]| shares.iter().map(|s| format!("{:.3}", s.mean)).collect::<Vec<_>>().join(", ");
     let holds = |share: &Estimate| (share.mean * share.n as f64).round() as usize >= least_successes(share.n, 0.9);
@@ -150,16 +158,22 @@ fn claims(columns: &[Vec<Cell>], seed: u64) -> Vec<Claim> {
         for (i, shown) in SHOWN.into_iter().enumerate() {
             // The best fixed β is that of least error among those whose bounds hold.
             let valid = (0..BETAS.len()).filter(|&b| holds(&accuracy(&published(b)[i], KIND)));
-            let best = valid.min_by(|&a, &b| {
-                error(&published(a)[i], KIND).mean.total_cmp(&error(&published(b)[i], KIND).mean)
-            });
+            let best = valid
+                .min_by(|&a, &b| error(&published(a)[i], KIND).mean.total_cmp(&error(&published(b)[i], KIND).mean));
             let Some(best) = best else {
-                claims.push(Claim::beaten(format!("{name}, {shown} shown: error below every β that holds"), true, "no β holds"));
+                claims.push(Claim::beaten(
+                    format!("{name}, {shown} shown: error below every β that holds"),
+                    true,
+                    "no β holds",
+                ));
                 continue;
             };
-            let differences: Vec<f64> =
-                paired_errors(&judged[i], &published(best)[i], KIND).into_iter().map(|(ours, other)| ours - other).collect();
-            let claim = format!("{name}, {shown} shown: error below that of the best fixed β that holds, {}", BETAS[best]);
+            let differences: Vec<f64> = paired_errors(&judged[i], &published(best)[i], KIND)
+                .into_iter()
+                .map(|(ours, other)| ours - other)
+                .collect();
+            let claim =
+                format!("{name}, {shown} shown: error below that of the best fixed β that holds, {}", BETAS[best]);
             claims.push(Claim::smaller(claim, &differences, seed));
         }
     }

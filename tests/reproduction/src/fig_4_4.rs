@@ -35,10 +35,22 @@ pub const FIG_4_4: Which = Which {
     heading: "Figure 4.4: bounds on given policies after 1 demonstration (error bars: ± 1 s.e.)",
     shown: 1,
     author: [
-        (BoundKind::WorstCase, [(1.0, 2.13), (1.0, 2.12), (1.0, 2.11), (1.0, 2.10), (1.0, 2.16), (0.995, 2.38), (0.99, 2.86)]),
-        (BoundKind::ValueAtRisk(0), [(1.0, 0.56), (1.0, 0.56), (1.0, 0.56), (1.0, 0.57), (1.0, 0.63), (1.0, 0.79), (1.0, 1.05)]),
-        (BoundKind::ValueAtRisk(1), [(1.0, 0.39), (1.0, 0.39), (1.0, 0.39), (1.0, 0.40), (0.995, 0.43), (0.99, 0.51), (0.965, 0.61)]),
-        (BoundKind::ValueAtRisk(2), [(1.0, 0.33), (1.0, 0.33), (0.995, 0.33), (0.995, 0.34), (0.98, 0.36), (0.955, 0.41), (0.91, 0.46)]),
+        (
+            BoundKind::WorstCase,
+            [(1.0, 2.13), (1.0, 2.12), (1.0, 2.11), (1.0, 2.10), (1.0, 2.16), (0.995, 2.38), (0.99, 2.86)],
+        ),
+        (
+            BoundKind::ValueAtRisk(0),
+            [(1.0, 0.56), (1.0, 0.56), (1.0, 0.56), (1.0, 0.57), (1.0, 0.63), (1.0, 0.79), (1.0, 1.05)],
+        ),
+        (
+            BoundKind::ValueAtRisk(1),
+            [(1.0, 0.39), (1.0, 0.39), (1.0, 0.39), (1.0, 0.40), (0.995, 0.43), (0.99, 0.51), (0.965, 0.61)],
+        ),
+        (
+            BoundKind::ValueAtRisk(2),
+            [(1.0, 0.33), (1.0, 0.33), (0.995, 0.33), (0.995, 0.34), (0.98, 0.36), (0.955, 0.41), (0.91, 0.46)],
+        ),
     ],
 };
 
@@ -49,10 +61,22 @@ pub const FIG_4_5: Which = Which {
     heading: "Figure 4.5: bounds on given policies after 9 demonstrations (error bars: ± 1 s.e.)",
     shown: 9,
     author: [
-        (BoundKind::WorstCase, [(1.0, 0.43), (1.0, 0.47), (0.995, 0.50), (1.0, 0.60), (0.995, 0.89), (1.0, 1.41), (1.0, 2.12)]),
-        (BoundKind::ValueAtRisk(0), [(1.0, 0.03), (1.0, 0.04), (1.0, 0.06), (1.0, 0.10), (1.0, 0.17), (1.0, 0.30), (1.0, 0.47)]),
-        (BoundKind::ValueAtRisk(1), [(1.0, 0.02), (0.995, 0.03), (1.0, 0.04), (1.0, 0.07), (0.99, 0.12), (0.995, 0.20), (0.99, 0.32)]),
-        (BoundKind::ValueAtRisk(2), [(1.0, 0.01), (0.995, 0.02), (0.985, 0.03), (0.98, 0.05), (0.975, 0.09), (0.96, 0.17), (0.955, 0.26)]),
+        (
+            BoundKind::WorstCase,
+            [(1.0, 0.43), (1.0, 0.47), (0.995, 0.50), (1.0, 0.60), (0.995, 0.89), (1.0, 1.41), (1.0, 2.12)],
+        ),
+        (
+            BoundKind::ValueAtRisk(0),
+            [(1.0, 0.03), (1.0, 0.04), (1.0, 0.06), (1.0, 0.10), (1.0, 0.17), (1.0, 0.30), (1.0, 0.47)],
+        ),
+        (
+            BoundKind::ValueAtRisk(1),
+            [(1.0, 0.02), (0.995, 0.03), (1.0, 0.04), (1.0, 0.07), (0.99, 0.12), (0.995, 0.20), (0.99, 0.32)],
+        ),
+        (
+            BoundKind::ValueAtRisk(2),
+            [(1.0, 0.01), (0.995, 0.02), (0.985, 0.03), (0.98, 0.05), (0.975, 0.09), (0.96, 0.17), (0.955, 0.26)],
+        ),
     ],
 };
 
@@ -97,10 +121,12 @@ fn one(shown: usize, seed: u64, replicate: usize) -> Result<Row, ReproductionErr
     let policies = worsened(&problem, &mut generator(seed, replicate, purpose::POLICIES));
     let counts: Vec<Vec<f64>> = policies.iter().map(|policy| problem.counts(policy)).collect::<Result<_, _>>()?;
     let walked = walk(&problem.mdp, &demonstrations, BETA, &mut generator(seed, replicate, purpose::WALK))?;
-    let published = counts.iter().map(|counts| walked.judge(&problem, &demonstrations, counts)).collect::<Result<_, _>>()?;
+    let published =
+        counts.iter().map(|counts| walked.judge(&problem, &demonstrations, counts)).collect::<Result<_, _>>()?;
     let mut chains = generator(seed, replicate, purpose::CHAINS);
     let (ours, quality) = believe(&problem.mdp, &demonstrations, PERFECT, &mut chains, |belief| {
-        let judged: Vec<Judged> = counts.iter().map(|counts| belief.judge(&problem, counts)).collect::<Result<_, _>>()?;
+        let judged: Vec<Judged> =
+            counts.iter().map(|counts| belief.judge(&problem, counts)).collect::<Result<_, _>>()?;
         let complete = judged.iter().all(Judged::is_complete);
         Ok(((judged, belief.quality()), complete))
     })?;
@@ -128,7 +154,8 @@ fn worsened(problem: &Problem, generator: &mut ChaCha8Rng) -> Vec<Vec<usize>> {
 fn tables(which: &Which, published: &[Vec<Judged>], ours: &[Vec<Judged>]) -> Vec<TextTable> {
     let mut head = vec!["accuracy / bound error".to_owned()];
     head.extend(WRONG.map(|n| format!("X = {n}")));
-    let mut table = TextTable::new("Accuracy / mean bound error ± s.e., by number X of states with a wrong action", &head);
+    let mut table =
+        TextTable::new("Accuracy / mean bound error ± s.e., by number X of states with a wrong action", &head);
     let both = |judged: &[Judged], kind| format!("{:.3} / {}", accuracy(judged, kind).mean, error(judged, kind).text());
     for (kind, author) in which.author {
         let name = kind.name();
@@ -148,16 +175,28 @@ fn tables(which: &Which, published: &[Vec<Judged>], ours: &[Vec<Judged>]) -> Vec
 fn claims(which: &Which, published: &[Vec<Judged>], ours: &[Vec<Judged>], seed: u64) -> Vec<Claim> {
     let exact = |judged: &[Judged]| BoundKind::ALL.iter().all(|&kind| accuracy(judged, kind).mean == 1.0);
     let mut claims = vec![Claim::matched("X = 0: every bound holds always", exact(&published[0]), "as published")];
-    let widest = |judged: &[Judged]| error(judged, BoundKind::WorstCase).mean / error(judged, BoundKind::ValueAtRisk(0)).mean;
+    let widest =
+        |judged: &[Judged]| error(judged, BoundKind::WorstCase).mean / error(judged, BoundKind::ValueAtRisk(0)).mean;
     if which.shown == 1 {
         let ratio = widest(&published[0]);
         let found = format!("{ratio:.1} times at X = 0");
-        claims.push(Claim::matched("WFCB error about 4 times that of the widest VaR bound (3 to 5)", (3.0..5.0).contains(&ratio), found));
+        claims.push(Claim::matched(
+            "WFCB error about 4 times that of the widest VaR bound (3 to 5)",
+            (3.0..5.0).contains(&ratio),
+            found,
+        ));
     } else {
         let kinds = BoundKind::ALL.into_iter().skip(1);
         let least = kinds.map(|kind| accuracy(&published[6], kind).mean).fold(f64::INFINITY, f64::min);
-        let found = format!("X = 64: least {least:.3}, s.e. {:.3}", libm::sqrt(least * (1.0 - least) / published[6].len() as f64));
-        claims.push(Claim::matched("wrong in three states of four: every VaR bound still holds in 95 %", least >= 0.95, found));
+        let found = format!(
+            "X = 64: least {least:.3}, s.e. {:.3}",
+            libm::sqrt(least * (1.0 - least) / published[6].len() as f64)
+        );
+        claims.push(Claim::matched(
+            "wrong in three states of four: every VaR bound still holds in 95 %",
+            least >= 0.95,
+            found,
+        ));
     }
     claims.push(at_least_alpha("as published: accuracy ≥ α", published, Claim::matched));
     claims.push(at_least_alpha("ours: accuracy ≥ α", ours, Claim::beaten));

@@ -3,7 +3,8 @@
 mod every_policy;
 
 use crate::chapter4::{
-    Demonstration, Evidence, PERFECT, Problem, Walk, believe, choices, least_risk_counts, optimal_values, purpose, walk_on,
+    Demonstration, Evidence, PERFECT, Problem, Walk, believe, choices, least_risk_counts, optimal_values, purpose,
+    walk_on,
 };
 use crate::harness::plot::{Cell, Content, Grid, Picture};
 use crate::harness::{
@@ -73,7 +74,8 @@ pub fn run(options: &Options) -> Result<Outcome, ReproductionError> {
         replicates: n,
         seed: options.seed,
         notes: vec![
-            "the grid is the author's; the dissertation shows one run, here are several that differ in the chain alone".into(),
+            "the grid is the author's; the dissertation shows one run, here are several that differ in the chain alone"
+                .into(),
             "as published: all 10,000 steps of the walk, β = 100; ours: HMC, β learned".into(),
             format!(
                 "least of all: exact, by branch and bound over all pairs of the {} ways from one start and the {} from the other that differ in their feature counts",
@@ -137,11 +139,15 @@ fn risk_of(best_values: &[f64], draws: &[f64], counts: &[f64]) -> f64 {
 }
 
 fn table(rows: &[Row]) -> TextTable {
-    let mut table = TextTable::new(".99-value at risk of the loss, mean ± s.e. over runs", &["policy", "value at risk", "changes"]);
+    let mut table =
+        TextTable::new(".99-value at risk of the loss, mean ± s.e. over runs", &["policy", "value at risk", "changes"]);
     let mean = |of: &dyn Fn(&Row) -> f64| Estimate::of(&rows.iter().map(of).collect::<Vec<f64>>()).text();
     table.row("most likely reward, as published", [mean(&|row| row.published.start_risk)]);
     let changes = |of: fn(&Row) -> usize| mean(&|row| of(row) as f64);
-    table.row("hill climbing, as published", [mean(&|row| row.published.end_risk), changes(|row| row.published.changes)]);
+    table.row(
+        "hill climbing, as published",
+        [mean(&|row| row.published.end_risk), changes(|row| row.published.changes)],
+    );
     table.row("most likely reward, ours", [mean(&|row| row.ours.start_risk)]);
     table.row("hill climbing, ours", [mean(&|row| row.ours.end_risk), changes(|row| row.ours.changes)]);
     table.row("least of all deterministic policies, ours", [mean(&|row| row.least)]);
@@ -169,7 +175,11 @@ fn claims(mdp: &Mdp, rows: &[Row]) -> Vec<Claim> {
         all("ours: it ends at the global optimum of all deterministic policies", Claim::beaten, &|row| {
             (row.ours.end_risk - row.least).abs() <= 1e-9 * (1.0 + row.least.abs())
         }),
-        Claim::beaten("the global optimum is found in less than .1 s", slowest < 0.1, format!("slowest run {:.0} ms", 1000.0 * slowest)),
+        Claim::beaten(
+            "the global optimum is found in less than .1 s",
+            slowest < 0.1,
+            format!("slowest run {:.0} ms", 1000.0 * slowest),
+        ),
     ]
 }
 
@@ -208,7 +218,8 @@ fn picture(mdp: &Mdp, row: &Row) -> Picture {
         }
     };
     Picture {
-        title: "Figure 4.6: policies on white and red cells, one run (circles: starts; the left one was demonstrated)".into(),
+        title: "Figure 4.6: policies on white and red cells, one run (circles: starts; the left one was demonstrated)"
+            .into(),
         content: Content::Grids(vec![
             grid("most likely, as published", &row.published.start, row.published.start_risk),
             grid("hill climbing, as published", &row.published.end, row.published.end_risk),

@@ -46,10 +46,8 @@ pub fn run(options: &Options) -> Result<Outcome, ReproductionError> {
     let n = options.count(200)?;
     let cells = replicates("table-4.1", n, options.threads, |replicate| one(options.seed, replicate))?;
     let columns: Vec<Vec<Cell>> = (0..SHOWN.len()).map(|i| cells.iter().map(|row| row[i]).collect()).collect();
-    let hoeffding: Vec<f64> = SHOWN
-        .into_iter()
-        .map(|shown| hoeffding_loss_bound(shown as u64, 8, 0.9, DELTA))
-        .collect::<Result<_, _>>()?;
+    let hoeffding: Vec<f64> =
+        SHOWN.into_iter().map(|shown| hoeffding_loss_bound(shown as u64, 8, 0.9, DELTA)).collect::<Result<_, _>>()?;
     let first = mean_bound(&columns[0], |cell| cell.published, BoundKind::ValueAtRisk(1)).mean;
     let as_many = hoeffding_demonstrations(first, 8, 0.9, DELTA)?;
     Ok(Outcome {
@@ -116,7 +114,8 @@ fn mean_bound(column: &[Cell], of: Of, kind: BoundKind) -> Estimate {
 }
 
 fn tables(columns: &[Vec<Cell>], hoeffding: &[f64]) -> Vec<TextTable> {
-    let mut table = TextTable::new("Mean bound ± s.e., by number of demonstrations", &["", "1 demo", "5", "9", "mean accuracy"]);
+    let mut table =
+        TextTable::new("Mean bound ± s.e., by number of demonstrations", &["", "1 demo", "5", "9", "mean accuracy"]);
     for (kind, _, printed, accuracy_printed, _) in PRINTED {
         let name = kind.name();
         let mut row: Vec<String> = printed.iter().map(|bound| format!("{bound:.4}")).collect();
@@ -152,14 +151,23 @@ fn claims(columns: &[Vec<Cell>], hoeffding: &[f64], seed: u64) -> Vec<Claim> {
             let Some(to_beat) = to_beat else { continue };
             for ((column, limit), shown) in columns.iter().zip(to_beat).zip(SHOWN) {
                 let bounds: Vec<f64> = column.iter().filter_map(|cell| kind.of(&of(cell))).map(|b| b - limit).collect();
-                claims.push(Claim::smaller(format!("{name}, {way}, {shown} shown: bound below {limit}"), &bounds, seed));
+                claims.push(Claim::smaller(
+                    format!("{name}, {way}, {shown} shown: bound below {limit}"),
+                    &bounds,
+                    seed,
+                ));
             }
             let enough = |column: &Vec<Cell>| {
                 let share = accuracy(&pick(column, *of), kind);
                 (share.mean * share.n as f64).round() as usize >= least_successes(share.n, alpha)
             };
-            let found: Vec<String> = columns.iter().map(|c| format!("{:.3}", accuracy(&pick(c, *of), kind).mean)).collect();
-            claims.push(Claim::beaten(format!("{name}, {way}: accuracy ≥ {alpha}"), columns.iter().all(enough), found.join(", ")));
+            let found: Vec<String> =
+                columns.iter().map(|c| format!("{:.3}", accuracy(&pick(c, *of), kind).mean)).collect();
+            claims.push(Claim::beaten(
+                format!("{name}, {way}: accuracy ≥ {alpha}"),
+                columns.iter().all(enough),
+                found.join(", "),
+            ));
         }
     }
     let given = [101.897, 45.570, 33.966];

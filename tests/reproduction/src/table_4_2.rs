@@ -51,14 +51,16 @@ pub fn run(options: &Options) -> Result<Outcome, ReproductionError> {
         counts.push(feature_counts(&problem.mdp, &driver)?);
         collisions.push(finite_feature_counts(&problem.mdp, &driver, LENGTH + 1, 1.0)?[driving::COLLISION]);
     }
-    let rows = replicates("table-4.2", n, options.threads, |replicate| one(&problem, &counts, options.seed, replicate))?;
+    let rows =
+        replicates("table-4.2", n, options.threads, |replicate| one(&problem, &counts, options.seed, replicate))?;
     Ok(Outcome {
         name: "table-4.2",
         title: "ranking of three drivers after one demonstration",
         replicates: n,
         seed: options.seed,
         notes: vec![
-            "the author's simulator as an exact process of 105 states; drivers take equally good actions equally often".into(),
+            "the author's simulator as an exact process of 105 states; drivers take equally good actions equally often"
+                .into(),
             "as published: walk of 2,000 steps, β = 10, repeated pairs removed, printed index".into(),
             "ours: HMC, β learned, repeated pairs count, index by effective sample size".into(),
             "true loss: under the demonstrator's reward, scaled to ‖w‖₁ = 1".into(),
@@ -138,7 +140,8 @@ fn claims(rows: &[Row], collisions: &[f64]) -> Vec<Claim> {
     let means = |of: Of, kind| -> Vec<f64> { (0..3).map(|i| bounds(rows, of, i, kind).mean).collect() };
     let rising = |means: &[f64]| means[0] < means[1] && means[1] < means[2];
     let list = |means: &[f64]| means.iter().map(|x| format!("{x:.3}")).collect::<Vec<_>>().join(" < ");
-    let (published, worst_case) = (means(|row| &row.published, KIND), means(|row| &row.published, BoundKind::WorstCase));
+    let (published, worst_case) =
+        (means(|row| &row.published, KIND), means(|row| &row.published, BoundKind::WorstCase));
     let ours = means(|row| &row.ours, KIND);
     let (n, right) = (rows.len(), right_runs(rows, |row| &row.ours, KIND));
     vec![

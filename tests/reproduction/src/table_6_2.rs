@@ -39,5 +39,7 @@ fn show(world: &World, column: usize, generator: &mut ChaCha8Rng) -> Result<Show
 }
 
 fn on_a_par(losses: &[(Estimate, Estimate)]) -> bool {
-    losses[2..].iter().all(|(irl, rex)| rex.mean - irl.mean <= 2.0 * libm::hypot(rex.standard_error, irl.standard_error))
+    losses[2..]
+        .iter()
+        .all(|(irl, rex)| rex.mean - irl.mean <= 2.0 * libm::hypot(rex.standard_error, irl.standard_error))
 }

@@ -26,9 +26,8 @@ pub const TABLE: Comparison = Comparison {
 };
 
 fn show(world: &World, column: usize, generator: &mut ChaCha8Rng) -> Result<Shown, ReproductionError> {
-    let random: Vec<_> = repeated_starts(world, SHOWN[column])
-        .map(|start| world.random(start, generator))
-        .collect::<Result<_, _>>()?;
+    let random: Vec<_> =
+        repeated_starts(world, SHOWN[column]).map(|start| world.random(start, generator)).collect::<Result<_, _>>()?;
     Ok(Shown { actions: choices(&random), ranked: ranked_by_return(world, &random) })
 }
 

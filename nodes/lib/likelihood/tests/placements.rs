@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Random, flowers, flowers_weights, lesson, placements, table};
-use likelihood::placements::{PlacementLikelihood, Placement};
+use likelihood::placements::{Placement, PlacementLikelihood};
 use proptest::prelude::{prop_assert, proptest};
 use scene::{Field, Grid, Point, Rbf};
 

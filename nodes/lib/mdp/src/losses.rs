@@ -6,8 +6,9 @@ use crate::error::{MdpError, check_finite};
 use crate::model::Mdp;
 use crate::solver::Solver;
 
-/// Expected value difference of a policy under each draw, V*_w − wᵀΦ(π) (dissertation eq. 4.4): n numbers, none negative. What
-/// rounding may have made of zero is zero: ranks of its noise would look like chains that disagree. `feature_counts` is Φ(π), `draws` n × k row by row. The same for any number of threads.
+/// Expected value difference of a policy under each draw, V*_w − wᵀΦ(π) (dissertation eq. 4.4): n numbers, none negative where
+/// Φ(π) is that of a policy. What rounding may have made of zero is zero: ranks of its noise would look like chains that disagree.
+/// With Φ = 0 they are V*_w itself. `feature_counts` is Φ(π), `draws` n × k row by row. The same for any number of threads.
 ///
 /// # Errors
 /// Counts or draws of the wrong length or not finite.
@@ -40,7 +41,7 @@ pub fn policy_losses(mdp: &Mdp, feature_counts: &[f64], draws: &[f64], threads: 
                         let value: f64 = w.iter().zip(feature_counts).map(|(w, phi)| w * phi).sum();
                         let size: f64 = w.iter().zip(feature_counts).map(|(w, phi)| (w * phi).abs()).sum();
                         let difference = solver.solve(w).value() - value;
-                        *loss = if difference > ROUNDING * size { difference } else { 0.0 };
+                        *loss = if difference.abs() > ROUNDING * size { difference } else { 0.0 };
                     }
                 }
             });

@@ -270,3 +270,17 @@ fn hill_climbing_on_one_reward_is_policy_iteration() {
     assert!(found.n_changes > 5);
     assert!((found.objective + optimum).abs() < 1e-12, "{} {optimum}", -found.objective);
 }
+
+#[test]
+fn losses_of_the_best_policy_are_exactly_zero_and_those_of_no_counts_the_value_itself() {
+    let mdp = chapter4::rep_0().mdp().unwrap();
+    // All rewards negative: V* is too.
+    let w: Vec<f64> = [3.0, 1.0, 2.0, 1.0, 4.0, 1.0, 5.0, 2.0].iter().map(|w| -w / 19.0).collect();
+    let mut solver = Solver::new(&mdp);
+    let best = solver.solve(&w);
+    let (value, counts) = (best.value(), best.feature_counts().to_vec());
+    assert!(value < 0.0);
+    assert_eq!(policy_losses(&mdp, &counts, &w, 1).unwrap(), [0.0]);
+    let of_nothing = policy_losses(&mdp, &[0.0; 8], &w, 1).unwrap();
+    assert!((of_nothing[0] - value).abs() < 1e-12, "{of_nothing:?} vs {value}");
+}

@@ -1,6 +1,8 @@
 //! The posterior as we sample it, and the policies and bounds that follow from it.
 
-use super::{ALPHAS, DELTA, Demonstration, Judged, Problem, choices, discounted_counts, least_risk_counts, safest_counts};
+use super::{
+    ALPHAS, DELTA, Demonstration, Judged, Problem, choices, discounted_counts, least_risk_counts, safest_counts,
+};
 use crate::harness::ReproductionError;
 use likelihood::actions::{ActionLikelihood, without_duplicates};
 use mdp::{Mdp, policy_losses};
@@ -125,7 +127,8 @@ pub fn believe<T>(
         rationality: evidence.rationality,
         likelihood: TermLikelihood::Actions(likelihood),
     };
-    let model = Model { n_features: mdp.n_features(), prior: Prior::L1Sphere, nonnegative_return: None, terms: vec![term] };
+    let model =
+        Model { n_features: mdp.n_features(), prior: Prior::L1Sphere, nonnegative_return: None, terms: vec![term] };
     let counts_shown = discounted_counts(mdp, demonstrations);
     let mut n_draws = DRAWS;
     loop {

@@ -164,7 +164,12 @@ fn picture(comparison: &Comparison, columns: &[Vec<Learned>]) -> Picture {
     };
     let printed = |label: &str, colour, source: Printed| {
         let at = |(i, &(mean, error)): (usize, &(f64, f64))| (i, mean, error);
-        Series { label: label.into(), colour, style: Style::Printed, points: source.author.iter().enumerate().map(at).collect() }
+        Series {
+            label: label.into(),
+            colour,
+            style: Style::Printed,
+            points: source.author.iter().enumerate().map(at).collect(),
+        }
     };
     let series = vec![
         printed("Bayesian IRL, author's data", 0, comparison.irl),

@@ -37,7 +37,13 @@ pub struct Learned {
 }
 
 /// Learns from what is shown in every way.
-pub fn learn(world: &World, shown: &Shown, seed: u64, replicate: usize, column: u32) -> Result<Learned, ReproductionError> {
+pub fn learn(
+    world: &World,
+    shown: &Shown,
+    seed: u64,
+    replicate: usize,
+    column: u32,
+) -> Result<Learned, ReproductionError> {
     let preferences = preferences(world, shown)?;
     // Columns draw from generators of their own, so that none shifts another.
     let generator_of = |purpose| generator(seed, replicate, purpose + 16 * (column + 1));

@@ -192,7 +192,8 @@ mod tests {
     fn the_safest_of_all_is_a_policy_with_that_risk() {
         let mdp = maze::world().mdp().expect("a world");
         let every = EveryPolicy::of(&mdp, maze::STARTS);
-        let draws: Vec<f64> = (0..200).flat_map(|i| [-0.5 + 0.002 * f64::from(i), -0.5 - 0.002 * f64::from(i)]).collect();
+        let draws: Vec<f64> =
+            (0..200).flat_map(|i| [-0.5 + 0.002 * f64::from(i), -0.5 - 0.002 * f64::from(i)]).collect();
         let (risk, policy) = every.safest(&draws, 0.9);
         let counts = feature_counts(&mdp, &Policy::Deterministic(policy)).expect("a policy");
         let mut losses = policy_losses(&mdp, &counts, &draws, 1).expect("losses");

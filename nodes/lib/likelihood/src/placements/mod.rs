@@ -155,7 +155,7 @@ impl WithSimd for Information<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{PlacementLikelihood, Placement};
+    use super::{Placement, PlacementLikelihood};
     use pulp::Arch;
     use scene::{Grid, Object, Point, Scene, Shape};
 

@@ -152,7 +152,8 @@ impl Panel {
                     if y < low - margin || y > high + margin {
                         continue;
                     }
-                    chart.draw_series([PathElement::new([(-0.4, y), (last + 0.4, y)], INK.mix(0.12).stroke_width(1))])?;
+                    chart
+                        .draw_series([PathElement::new([(-0.4, y), (last + 0.4, y)], INK.mix(0.12).stroke_width(1))])?;
                     let (left, top) = area.get_base_pixel();
                     let (x, y) = chart.backend_coord(&(-0.4, y));
                     let text = style(13).pos(Pos::new(HPos::Right, VPos::Center));
