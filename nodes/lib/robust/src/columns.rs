@@ -1,6 +1,6 @@
 //! Column generation (Dantzig and Wolfe 1960): mixtures of policies that are each optimal for one reward.
 //!
-//! CVaR_α[ψ] is the least Σ q_i ψ_i over the envelope {0 ≤ q ≤ p / (1 − α), Σ q = 1}, so the optimum is that of a game between
+//! CVaR_α(ψ) is the least Σ q_i ψ_i over the envelope {0 ≤ q ≤ p / (1 − α), Σ q = 1}, so the optimum is that of a game between
 //! a mixture of policies and q. A search over the policies known finds the best mixture and the q that holds it down;
 //! planning for the reward (1 − λ) Σ q_i w_i + λ w̄ finds the policy that q overlooked, and a bound that no policy exceeds.
 //! The process itself is only ever planned in, so its size hardly matters.

@@ -1,7 +1,7 @@
 //! Robust policies from an uncertain reward (dissertation chapter 7 and appendix F).
 //!
 //! A [`Problem`] is a process, posterior draws of its reward weights and an [`Objective`] ψ. [`Problem::solve`] finds the policy
-//! that maximises (1 − λ) CVaR_α[ψ] + λ E[return]; [`Problem::frontier`] does for many λ. The answer is either the optimum, which
+//! that maximises (1 − λ) CVaR_α(ψ) + λ E(return); [`Problem::frontier`] does for many λ. The answer is either the optimum, which
 //! is proved by a bound that comes from planning and not from the solver that found it, or an [`Outcome`] that says what is
 //! missing. Baselines: [`lpal`], [`max_entropy`], [`optimal_policy`], [`climb_value_at_risk`].
 

@@ -21,11 +21,11 @@ pub struct OutOfSample {
     pub n: usize,
     /// What they are worth in independent ones, as far as the tail is concerned.
     pub effective_size: f64,
-    /// E[ψ].
+    /// E(ψ).
     pub mean: f64,
-    /// VaR_α[ψ].
+    /// VaR_α(ψ).
     pub value_at_risk: f64,
-    /// CVaR_α[ψ].
+    /// CVaR_α(ψ).
     pub conditional_value_at_risk: f64,
     /// Its standard error.
     pub standard_error: f64,

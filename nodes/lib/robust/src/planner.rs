@@ -82,7 +82,7 @@ impl<'a> Planner<'a> {
     }
 
     /// The optimal policy for the reward (1 − λ) Σ q_i w_i + λ w̄, and what no policy's objective exceeds, for
-    /// CVaR_α[ψ] ≤ Σ q_i ψ_i for every q with 0 ≤ q_i ≤ p_i / (1 − α) and Σ q = 1.
+    /// CVaR_α(ψ) ≤ Σ q_i ψ_i for every q with 0 ≤ q_i ≤ p_i / (1 − α) and Σ q = 1.
     ///
     /// # Errors
     /// A process in which policies cannot be evaluated.

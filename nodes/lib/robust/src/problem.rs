@@ -38,13 +38,13 @@ pub struct Problem<'a> {
 /// The risk of some policy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Risk {
-    /// (1 − λ) CVaR_α[ψ] + λ E[return].
+    /// (1 − λ) CVaR_α(ψ) + λ E(return).
     pub objective: f64,
-    /// E[return].
+    /// E(return).
     pub expected_return: f64,
-    /// VaR_α[ψ].
+    /// VaR_α(ψ).
     pub value_at_risk: f64,
-    /// CVaR_α[ψ].
+    /// CVaR_α(ψ).
     pub conditional_value_at_risk: f64,
 }
 

@@ -14,7 +14,7 @@ const MAX_RESIDUAL: f64 = 1e-9;
 /// Largest difference between the objective claimed and the one of the visits, as a share of the unit.
 const MAX_DIFFERENCE: f64 = 1e-9;
 
-/// The policy that maximises (1 − λ) CVaR_α[ψ] + λ E[return], or the best that was found.
+/// The policy that maximises (1 − λ) CVaR_α(ψ) + λ E(return), or the best that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// What it is known to be.
@@ -31,15 +31,15 @@ pub struct Solution {
     pub unvisited: Vec<usize>,
     /// μ = Φᵀu: k numbers.
     pub feature_counts: Vec<f64>,
-    /// (1 − λ) CVaR_α[ψ] + λ E[return], from u.
+    /// (1 − λ) CVaR_α(ψ) + λ E(return), from u.
     pub objective: f64,
     /// No policy has a larger objective: found by planning for one reward, at least `objective`.
     pub upper_bound: f64,
-    /// E[return].
+    /// E(return).
     pub expected_return: f64,
-    /// VaR_α[ψ] = sup{x : P(ψ ≥ x) ≥ α}, from u.
+    /// VaR_α(ψ) = sup{x : P(ψ ≥ x) ≥ α}, from u.
     pub value_at_risk: f64,
-    /// CVaR_α[ψ], from u: at λ = 1 the solver's σ and z mean nothing.
+    /// CVaR_α(ψ), from u: at λ = 1 the solver's σ and z mean nothing.
     pub conditional_value_at_risk: f64,
     /// Typical size of returns: gaps within the tolerance's share of it count as none.
     pub unit: f64,

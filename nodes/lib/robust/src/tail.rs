@@ -8,7 +8,7 @@ const ROUNDING: f64 = 1e-12;
 pub(crate) struct LowerTail {
     /// sup{x : P(X ≥ x) ≥ α}; the largest value for α = 0.
     pub(crate) value_at_risk: f64,
-    /// max_σ σ − E[(σ − X)₊] / (1 − α) (dissertation eq. 7.4): the mean of the worst share 1 − α.
+    /// max_σ σ − E(σ − X)₊ / (1 − α) (dissertation eq. 7.4): the mean of the worst share 1 − α.
     pub(crate) conditional_value_at_risk: f64,
     /// q with 0 ≤ q_i ≤ p_i / (1 − α) and Σ q = 1 that minimises qᵀX: one number per draw.
     pub(crate) shares: Vec<f64>,

@@ -7,9 +7,9 @@ use crate::tail::{LowerTail, lower_tail};
 /// The objective and what it is made of.
 #[derive(Debug, Clone)]
 pub(crate) struct Value {
-    /// (1 − λ) CVaR_α[ψ] + λ E[return].
+    /// (1 − λ) CVaR_α(ψ) + λ E(return).
     pub(crate) objective: f64,
-    /// E[return].
+    /// E(return).
     pub(crate) expected_return: f64,
     /// ψ of every draw.
     pub(crate) values: Vec<f64>,

@@ -6,7 +6,7 @@ mod common;
 use common::{close, shape};
 use robust::{MethodChoice, Objective, Outcome, Problem, Settings, Signs, lpal};
 
-/// Problem, α, λ, whether draws are weighted, objective, optimum, E[return] and CVaR there.
+/// Problem, α, λ, whether draws are weighted, objective, optimum, E(return) and CVaR there.
 type Known = (u64, f64, f64, bool, &'static str, f64, f64, f64);
 
 #[rustfmt::skip]

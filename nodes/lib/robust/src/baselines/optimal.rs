@@ -28,9 +28,9 @@ pub fn optimal_policy(mdp: &Mdp, weights: &[f64]) -> Result<Baseline, RobustErro
     }))
 }
 
-/// Hill climbing on VaR_α[ψ] from `start`, one action in one state at a time (dissertation section 4.5.5, where ψ is that of
+/// Hill climbing on VaR_α(ψ) from `start`, one action in one state at a time (dissertation section 4.5.5, where ψ is that of
 /// [`crate::Objective::Loss`]), until no change makes it larger or `max_changes` were made. The objective of the result is
-/// −VaR_α[ψ].
+/// −VaR_α(ψ).
 ///
 /// # Errors
 /// α outside [0, 1); a start that is not a policy of the process.
