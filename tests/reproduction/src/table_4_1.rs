@@ -20,7 +20,8 @@ const BETA: f64 = 100.0;
 const EPSILON: f64 = 0.001;
 const MOST_STEPS: usize = 5000;
 /// Level, the dissertation's mean bounds by [`SHOWN`] and its accuracy, and the bounds to beat.
-const PRINTED: [(BoundKind, f64, [f64; 3], f64, Option<[f64; 3]>); 2] = [
+type Printed = (BoundKind, f64, [f64; 3], f64, Option<[f64; 3]>);
+const PRINTED: [Printed; 2] = [
     (BoundKind::ValueAtRisk(1), 0.95, [0.9372, 0.2532, 0.1328], 0.98, Some([0.80, 0.21, 0.11])),
     (BoundKind::ValueAtRisk(0), 0.99, [1.1428, 0.2937, 0.1535], 1.0, None),
 ];

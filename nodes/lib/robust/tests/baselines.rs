@@ -79,8 +79,8 @@ fn soft_counts(mdp: &mdp::Mdp, theta: &[f64], horizon: Horizon) -> Vec<f64> {
             let total: f64 = q.iter().map(|q| q.exp()).sum();
             let choices = if mdp.is_terminal(state) { n_actions as f64 } else { 1.0 };
             next[state] = (total / choices).ln();
-            for action in 0..n_actions {
-                let p = q[action].exp() / total;
+            for (action, q) in q.iter().enumerate() {
+                let p = q.exp() / total;
                 for j in 0..k {
                     let ahead: f64 = mdp.successors(state, action).map(|(s, p)| p * counts[s * k + j]).sum();
                     next_counts[state * k + j] += p * (mdp.features(state, action)[j] + discount * ahead);

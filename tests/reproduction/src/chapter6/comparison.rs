@@ -41,8 +41,11 @@ pub struct Comparison {
     /// What is shown in a column.
     pub show: fn(&World, usize, &mut ChaCha8Rng) -> Result<Shown, ReproductionError>,
     /// A claim of the text about losses as published, by column: (Bayesian IRL, Bayesian REX).
-    pub claim: (&'static str, fn(&[(Estimate, Estimate)]) -> bool),
+    pub claim: (&'static str, ByColumn),
 }
+
+/// Judges the losses of both methods in every column.
+pub type ByColumn = fn(&[(Estimate, Estimate)]) -> bool;
 
 /// Makes the table.
 pub fn run(comparison: &Comparison, options: &Options) -> Result<Outcome, ReproductionError> {

@@ -106,7 +106,7 @@ fn counts(mdp: &Mdp, way: &Way, last: usize) -> [f64; 2] {
     let repeats_from = way.iter().position(|step| step.0 == last);
     let mut sums = [0.0; 2];
     let mut discount = 1.0;
-    let mut add = |sums: &mut [f64; 2], state: usize, discount: f64| {
+    let add = |sums: &mut [f64; 2], state: usize, discount: f64| {
         let phi = phi(state);
         sums[0] += discount * phi[0];
         sums[1] += discount * phi[1];
