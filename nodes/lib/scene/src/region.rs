@@ -57,6 +57,11 @@ impl Region {
         }
     }
 
+    /// Whether no point within `radius_m` of another is free.
+    pub(crate) fn is_blocked_around(&self, at_m: Point, radius_m: f64) -> bool {
+        self.blocks.iter().any(|block| block.distance(at_m) + radius_m < self.margin_m)
+    }
+
     /// The point of the region that a step to `at` ends on: clamped to the rectangle, and put back onto an outline it has
     /// crossed. `None` when it then meets something else.
     pub(crate) fn pull(&self, at: Point) -> Option<(Point, Option<Outline>)> {
@@ -104,6 +109,11 @@ enum Place {
 }
 
 impl Block {
+    /// Distance from the footprint, metres; 0 or less inside.
+    fn distance(&self, at: Point) -> f64 {
+        self.outline(at).map_or(-self.radius_m, |(distance, ..)| distance)
+    }
+
     /// Distance from the footprint, the direction away from it, and the curvature of the outline through the point.
     fn outline(&self, at: Point) -> Option<(f64, Point, f64)> {
         let (dx, dy) = (at.x - self.centre.x, at.y - self.centre.y);
