@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use thiserror::Error;
 
-use crate::generated::{DEFINITIONS, MESSAGES, SERVICES};
+use crate::generated::{ACTIONS, DEFINITIONS, MESSAGES, SERVICES};
 use crate::interface::{Base, InterfaceError, parse_message};
 
 /// Most types that one schema may consist of.
@@ -55,7 +55,13 @@ pub fn all_services() -> &'static [&'static str] {
     SERVICES
 }
 
-/// Text of the definition of a message (`package/msg/Name`) or a service (`package/srv/Name`).
+/// Names of all actions that this crate knows, `package/action/Name`, sorted.
+pub fn all_actions() -> &'static [&'static str] {
+    ACTIONS
+}
+
+/// Text of the definition of a message (`package/msg/Name`), a service (`package/srv/Name`) or an action
+/// (`package/action/Name`).
 pub fn definition(type_name: &str) -> Option<&'static str> {
     let at = DEFINITIONS.binary_search_by_key(&type_name, |(name, _)| name).ok()?;
     Some(DEFINITIONS[at].1)

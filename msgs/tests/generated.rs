@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use apprentice_msgs::generator::{COMMAND, GenerateError, Kind, OWN_PACKAGE, Source, generate, generate_from, load};
-use apprentice_msgs::interface::{Base, parse_message, parse_service};
+use apprentice_msgs::interface::{Base, parse_action, parse_message, parse_service};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -58,7 +58,11 @@ fn dependencies() -> BTreeSet<String> {
                 let service = service.expect("good");
                 vec![service.request, service.response]
             }
-            Kind::Action => panic!("add actions to this test"),
+            Kind::Action => {
+                let action = parse_action(OWN_PACKAGE, &source.name, &source.path, &source.text).expect("good");
+                packages.insert("action_msgs".to_owned());
+                vec![action.goal, action.result, action.feedback]
+            }
         };
         for field in messages.iter().flat_map(|message| &message.fields) {
             if let Base::Message { package, .. } = &field.ty.base

@@ -6,11 +6,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
 
 use apprentice_msgs::{
-    Message, Service, action_msgs, builtin_interfaces, diagnostic_msgs, geometry_msgs, msg, rcl_interfaces,
-    rosgraph_msgs, sensor_msgs, srv, std_msgs, std_srvs, tf2_msgs, trajectory_msgs, unique_identifier_msgs,
-    visualization_msgs,
+    Action, Message, Service, action, action_msgs, builtin_interfaces, control_msgs, diagnostic_msgs, geometry_msgs,
+    moveit_msgs, msg, object_recognition_msgs, octomap_msgs, rcl_interfaces, rosgraph_msgs, sensor_msgs, shape_msgs,
+    srv, std_msgs, std_srvs, tf2_msgs, trajectory_msgs, unique_identifier_msgs, vision_msgs, visualization_msgs,
 };
-use apprentice_msgs::{all_services, all_types, from_cdr, to_cdr};
+use apprentice_msgs::{all_actions, all_services, all_types, from_cdr, to_cdr};
 use support::filled;
 
 /// Bytes of `tests/golden/cdr.txt`: the type's name, then little-endian, then big-endian.
@@ -70,7 +70,7 @@ where
 fn every_message_agrees_with_an_independent_implementation() {
     let golden = Golden::read();
     let mut seen = BTreeSet::new();
-    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 110] = [
+    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 142] = [
         check::<msg::ActionDemonstration>,
         check::<msg::Candidates>,
         check::<msg::CritiqueSegment>,
@@ -78,6 +78,7 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<msg::EvidenceReceipt>,
         check::<msg::EvidenceRecord>,
         check::<msg::FeatureTrajectory>,
+        check::<msg::FrontierPoint>,
         check::<msg::Heartbeat>,
         check::<msg::LearnerHistory>,
         check::<msg::LessonStatus>,
@@ -89,6 +90,7 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<msg::PlacementQuery>,
         check::<msg::PolicyBound>,
         check::<msg::PolicyBounds>,
+        check::<msg::PolicyFrontier>,
         check::<msg::PolicySet>,
         check::<msg::PolicyToJudge>,
         check::<msg::Posterior>,
@@ -98,6 +100,8 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<msg::Rationality>,
         check::<msg::Retraction>,
         check::<msg::RiskBound>,
+        check::<msg::RiskPreference>,
+        check::<msg::RobustPolicy>,
         check::<msg::SceneObject>,
         check::<msg::SegmentCritique>,
         check::<msg::TableScene>,
@@ -109,6 +113,8 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<action_msgs::GoalStatusArray>,
         check::<builtin_interfaces::Duration>,
         check::<builtin_interfaces::Time>,
+        check::<control_msgs::JointComponentTolerance>,
+        check::<control_msgs::JointTolerance>,
         check::<diagnostic_msgs::DiagnosticArray>,
         check::<diagnostic_msgs::DiagnosticStatus>,
         check::<diagnostic_msgs::KeyValue>,
@@ -116,6 +122,7 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<geometry_msgs::Point>,
         check::<geometry_msgs::Point32>,
         check::<geometry_msgs::PointStamped>,
+        check::<geometry_msgs::Polygon>,
         check::<geometry_msgs::Pose>,
         check::<geometry_msgs::PoseArray>,
         check::<geometry_msgs::PoseStamped>,
@@ -131,6 +138,19 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<geometry_msgs::Vector3Stamped>,
         check::<geometry_msgs::Wrench>,
         check::<geometry_msgs::WrenchStamped>,
+        check::<moveit_msgs::AllowedCollisionEntry>,
+        check::<moveit_msgs::AllowedCollisionMatrix>,
+        check::<moveit_msgs::AttachedCollisionObject>,
+        check::<moveit_msgs::CollisionObject>,
+        check::<moveit_msgs::LinkPadding>,
+        check::<moveit_msgs::LinkScale>,
+        check::<moveit_msgs::ObjectColor>,
+        check::<moveit_msgs::PlanningScene>,
+        check::<moveit_msgs::PlanningSceneWorld>,
+        check::<moveit_msgs::RobotState>,
+        check::<object_recognition_msgs::ObjectType>,
+        check::<octomap_msgs::Octomap>,
+        check::<octomap_msgs::OctomapWithPose>,
         check::<rcl_interfaces::FloatingPointRange>,
         check::<rcl_interfaces::IntegerRange>,
         check::<rcl_interfaces::ListParametersResult>,
@@ -145,6 +165,11 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<rosgraph_msgs::Clock>,
         check::<sensor_msgs::CompressedImage>,
         check::<sensor_msgs::JointState>,
+        check::<sensor_msgs::MultiDOFJointState>,
+        check::<shape_msgs::Mesh>,
+        check::<shape_msgs::MeshTriangle>,
+        check::<shape_msgs::Plane>,
+        check::<shape_msgs::SolidPrimitive>,
         check::<std_msgs::Bool>,
         check::<std_msgs::Byte>,
         check::<std_msgs::Char>,
@@ -169,7 +194,14 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<tf2_msgs::TFMessage>,
         check::<trajectory_msgs::JointTrajectory>,
         check::<trajectory_msgs::JointTrajectoryPoint>,
+        check::<trajectory_msgs::MultiDOFJointTrajectory>,
+        check::<trajectory_msgs::MultiDOFJointTrajectoryPoint>,
         check::<unique_identifier_msgs::UUID>,
+        check::<vision_msgs::BoundingBox3D>,
+        check::<vision_msgs::Detection3D>,
+        check::<vision_msgs::Detection3DArray>,
+        check::<vision_msgs::ObjectHypothesis>,
+        check::<vision_msgs::ObjectHypothesisWithPose>,
         check::<visualization_msgs::InteractiveMarker>,
         check::<visualization_msgs::InteractiveMarkerControl>,
         check::<visualization_msgs::InteractiveMarkerFeedback>,
@@ -212,6 +244,42 @@ fn every_service_goes_there_and_back() {
         check(&mut seen, &golden);
     }
     assert!(seen.iter().eq(all_services()), "every service stands in this test's list");
+}
+
+fn check_action<A: Action>(seen: &mut BTreeSet<&'static str>, golden: &Golden)
+where
+    <A::SendGoal as Service>::Request: Debug + PartialEq,
+    <A::SendGoal as Service>::Response: Debug + PartialEq,
+    <A::GetResult as Service>::Request: Debug + PartialEq,
+    <A::GetResult as Service>::Response: Debug + PartialEq,
+    A::FeedbackMessage: Debug + PartialEq,
+    A::Goal: Debug + PartialEq,
+    A::Result: Debug + PartialEq,
+    A::Feedback: Debug + PartialEq,
+{
+    seen.insert(A::TYPE);
+    let mut parts = BTreeSet::new();
+    check_service::<A::SendGoal>(&mut parts, golden);
+    check_service::<A::GetResult>(&mut parts, golden);
+    check::<A::FeedbackMessage>(&mut parts, golden);
+    assert!(parts.iter().all(|part| part.starts_with(&format!("{}_", A::TYPE))), "{parts:?}");
+    // What is put together comes apart again.
+    let id = filled();
+    let (goal, result, feedback) = (filled::<A::Goal>(), filled::<A::Result>(), filled::<A::Feedback>());
+    assert_eq!(A::goal_of(A::goal_request(id, goal.clone())), (id, goal));
+    assert_eq!(A::result_of(A::result_response(4, result.clone())), (4, result));
+    assert_eq!(A::feedback_of(A::feedback_message(id, feedback.clone())), (id, feedback));
+    assert_eq!(A::result_id(&A::result_request(id)), id);
+    assert!(A::is_accepted(&A::goal_response(true, filled())) && !A::is_accepted(&A::goal_response(false, filled())));
+}
+
+#[test]
+fn every_action_goes_there_and_back() {
+    let golden = Golden::read();
+    let mut seen = BTreeSet::new();
+    check_action::<action::PlaceObject>(&mut seen, &golden);
+    check_action::<control_msgs::FollowJointTrajectory>(&mut seen, &golden);
+    assert!(seen.iter().eq(all_actions()), "every action stands in this test");
 }
 
 #[test]

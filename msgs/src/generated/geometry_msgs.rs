@@ -60,6 +60,17 @@ impl crate::Message for PointStamped {
     const TYPE: &'static str = "geometry_msgs/msg/PointStamped";
 }
 
+/// The message `geometry_msgs/msg/Polygon`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Polygon {
+    /// (`Point32[]`)
+    pub points: Vec<super::geometry_msgs::Point32>,
+}
+
+impl crate::Message for Polygon {
+    const TYPE: &'static str = "geometry_msgs/msg/Polygon";
+}
+
 /// The message `geometry_msgs/msg/Pose`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pose {

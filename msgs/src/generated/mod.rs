@@ -2,20 +2,27 @@
 //!
 //! Generated: do not edit. To write it anew: `cargo run --release -p apprentice_msgs --example generate`.
 
+pub mod action;
 pub mod action_msgs;
 pub mod builtin_interfaces;
+pub mod control_msgs;
 pub mod diagnostic_msgs;
 pub mod geometry_msgs;
+pub mod moveit_msgs;
 pub mod msg;
+pub mod object_recognition_msgs;
+pub mod octomap_msgs;
 pub mod rcl_interfaces;
 pub mod rosgraph_msgs;
 pub mod sensor_msgs;
+pub mod shape_msgs;
 pub mod srv;
 pub mod std_msgs;
 pub mod std_srvs;
 pub mod tf2_msgs;
 pub mod trajectory_msgs;
 pub mod unique_identifier_msgs;
+pub mod vision_msgs;
 pub mod visualization_msgs;
 
 /// Names of all messages, sorted.
@@ -30,6 +37,7 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/EvidenceReceipt",
     "apprentice_msgs/msg/EvidenceRecord",
     "apprentice_msgs/msg/FeatureTrajectory",
+    "apprentice_msgs/msg/FrontierPoint",
     "apprentice_msgs/msg/Heartbeat",
     "apprentice_msgs/msg/LearnerHistory",
     "apprentice_msgs/msg/LessonStatus",
@@ -41,6 +49,7 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/PlacementQuery",
     "apprentice_msgs/msg/PolicyBound",
     "apprentice_msgs/msg/PolicyBounds",
+    "apprentice_msgs/msg/PolicyFrontier",
     "apprentice_msgs/msg/PolicySet",
     "apprentice_msgs/msg/PolicyToJudge",
     "apprentice_msgs/msg/Posterior",
@@ -50,6 +59,8 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/Rationality",
     "apprentice_msgs/msg/Retraction",
     "apprentice_msgs/msg/RiskBound",
+    "apprentice_msgs/msg/RiskPreference",
+    "apprentice_msgs/msg/RobustPolicy",
     "apprentice_msgs/msg/SceneObject",
     "apprentice_msgs/msg/SegmentCritique",
     "apprentice_msgs/msg/TableScene",
@@ -58,6 +69,8 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/WorldReference",
     "builtin_interfaces/msg/Duration",
     "builtin_interfaces/msg/Time",
+    "control_msgs/msg/JointComponentTolerance",
+    "control_msgs/msg/JointTolerance",
     "diagnostic_msgs/msg/DiagnosticArray",
     "diagnostic_msgs/msg/DiagnosticStatus",
     "diagnostic_msgs/msg/KeyValue",
@@ -65,6 +78,7 @@ pub(crate) const MESSAGES: &[&str] = &[
     "geometry_msgs/msg/Point",
     "geometry_msgs/msg/Point32",
     "geometry_msgs/msg/PointStamped",
+    "geometry_msgs/msg/Polygon",
     "geometry_msgs/msg/Pose",
     "geometry_msgs/msg/PoseArray",
     "geometry_msgs/msg/PoseStamped",
@@ -80,6 +94,19 @@ pub(crate) const MESSAGES: &[&str] = &[
     "geometry_msgs/msg/Vector3Stamped",
     "geometry_msgs/msg/Wrench",
     "geometry_msgs/msg/WrenchStamped",
+    "moveit_msgs/msg/AllowedCollisionEntry",
+    "moveit_msgs/msg/AllowedCollisionMatrix",
+    "moveit_msgs/msg/AttachedCollisionObject",
+    "moveit_msgs/msg/CollisionObject",
+    "moveit_msgs/msg/LinkPadding",
+    "moveit_msgs/msg/LinkScale",
+    "moveit_msgs/msg/ObjectColor",
+    "moveit_msgs/msg/PlanningScene",
+    "moveit_msgs/msg/PlanningSceneWorld",
+    "moveit_msgs/msg/RobotState",
+    "object_recognition_msgs/msg/ObjectType",
+    "octomap_msgs/msg/Octomap",
+    "octomap_msgs/msg/OctomapWithPose",
     "rcl_interfaces/msg/FloatingPointRange",
     "rcl_interfaces/msg/IntegerRange",
     "rcl_interfaces/msg/ListParametersResult",
@@ -94,6 +121,11 @@ pub(crate) const MESSAGES: &[&str] = &[
     "rosgraph_msgs/msg/Clock",
     "sensor_msgs/msg/CompressedImage",
     "sensor_msgs/msg/JointState",
+    "sensor_msgs/msg/MultiDOFJointState",
+    "shape_msgs/msg/Mesh",
+    "shape_msgs/msg/MeshTriangle",
+    "shape_msgs/msg/Plane",
+    "shape_msgs/msg/SolidPrimitive",
     "std_msgs/msg/Bool",
     "std_msgs/msg/Byte",
     "std_msgs/msg/Char",
@@ -118,7 +150,14 @@ pub(crate) const MESSAGES: &[&str] = &[
     "tf2_msgs/msg/TFMessage",
     "trajectory_msgs/msg/JointTrajectory",
     "trajectory_msgs/msg/JointTrajectoryPoint",
+    "trajectory_msgs/msg/MultiDOFJointTrajectory",
+    "trajectory_msgs/msg/MultiDOFJointTrajectoryPoint",
     "unique_identifier_msgs/msg/UUID",
+    "vision_msgs/msg/BoundingBox3D",
+    "vision_msgs/msg/Detection3D",
+    "vision_msgs/msg/Detection3DArray",
+    "vision_msgs/msg/ObjectHypothesis",
+    "vision_msgs/msg/ObjectHypothesisWithPose",
     "visualization_msgs/msg/InteractiveMarker",
     "visualization_msgs/msg/InteractiveMarkerControl",
     "visualization_msgs/msg/InteractiveMarkerFeedback",
@@ -148,6 +187,12 @@ pub(crate) const SERVICES: &[&str] = &[
     "visualization_msgs/srv/GetInteractiveMarkers",
 ];
 
+/// Names of all actions, sorted.
+pub(crate) const ACTIONS: &[&str] = &[
+    "apprentice_msgs/action/PlaceObject",
+    "control_msgs/action/FollowJointTrajectory",
+];
+
 /// Names and texts of all definitions, sorted by name.
 pub(crate) const DEFINITIONS: &[(&str, &str)] = &[
     ("action_msgs/msg/GoalInfo", r#"unique_identifier_msgs/UUID goal_id
@@ -175,6 +220,44 @@ int8 ERROR_GOAL_TERMINATED=3
 
 int8 return_code
 GoalInfo[] goals_canceling
+"#),
+    ("apprentice_msgs/action/PlaceObject", r#"# Put an object where the person wants it: choose a place, pick it up, put it down. Any client may ask; nothing moves unless
+# the lesson is taught, the path is free and the arm is known to be where it starts.
+string object_id                 # what to place; empty: the target of the scene
+bool plan_only                   # stop before anything moves
+---
+# How it came out.
+uint8 DONE=0
+uint8 PLANNED=1                  # planned, and no more was asked for
+uint8 NOT_TAUGHT=2               # the bound on the placement loss exceeds epsilon
+uint8 NO_FREE_PLACE=3
+uint8 UNREACHABLE=4
+uint8 NO_PATH=5
+uint8 NO_ROBOT=6
+uint8 STALE_JOINTS=7             # the joint state is older than the set age, or is not that of the robot
+uint8 SCENE_CHANGED=8            # what stands on the table changed on the way
+uint8 CONTROLLER_FAILED=9        # the controller refused, aborted, timed out or is gone
+uint8 CANCELED=10
+uint8 BUSY=11                    # another object is being placed
+uint8 UNKNOWN_OBJECT=12
+
+uint8 outcome
+string reason                    # the same in one sentence
+uint64 revision                  # of the posterior that chose the place
+geometry_msgs/Point placement    # where it went or would go, in the table's frame; not numbers without a place
+---
+# How far it is.
+uint8 CHOOSING=0
+uint8 PLANNING=1
+uint8 APPROACHING=2              # the empty hand goes to the object
+uint8 GRASPING=3
+uint8 MOVING=4                   # the object is on its way
+uint8 RELEASING=5
+uint8 RETREATING=6
+
+uint8 stage
+string description               # in plain words
+float64 progress                 # of the whole, 0 to 1
 "#),
     ("apprentice_msgs/msg/ActionDemonstration", r#"# A person shows what to do in states of a world. Idempotent: the same id with the same content counts once.
 uint8 CONFIDENCE_SURE=0
@@ -246,6 +329,14 @@ WorldReference[<=1] world
 string id                        # unique within a session: the same id stands for the same features
 float64[] features               # one per weight: the sum over its steps, discounted as the reward is
 "#),
+    ("apprentice_msgs/msg/FrontierPoint", r#"# The best policy for one lambda.
+float64 lambda
+uint8 outcome                    # as in RobustPolicy
+float64 gap
+float64 expected_return
+float64 value_at_risk
+float64 conditional_value_at_risk
+"#),
     ("apprentice_msgs/msg/Heartbeat", r#"# A node is alive. Twice a second.
 builtin_interfaces/Time stamp
 string node
@@ -280,6 +371,8 @@ uint32 demonstrations            # active ones
 uint8 bound_outcome              # as in PlacementBound
 float64 bound_m                  # NaN without one
 float64 epsilon_m
+float64 loss_bound               # about a world: bound on the normalised loss of the robot's policy; NaN without one
+float64 epsilon_loss             # the lesson about a world ends below it; NaN when it is about a table
 "#),
     ("apprentice_msgs/msg/NodeSettings", r#"# What a node was started with; a replay starts it the same way.
 string node                      # executable's name of the node
@@ -424,11 +517,30 @@ string evidence_hash
 uint64 seed
 string version
 "#),
+    ("apprentice_msgs/msg/PolicyFrontier", r#"# What every lambda buys: expected return against the worst case (dissertation figure 7.3), of one posterior.
+std_msgs/Header header           # stamp of the posterior
+uint64 revision                  # of the posterior
+string evidence_hash
+WorldReference world
+uint8 outcome                    # as in RobustPolicy: the worst of the points'
+string reason
+uint8 objective                  # as in RobustPolicy
+float64 alpha
+uint64 n_draws
+uint32 chains_used               # as in RobustPolicy
+FrontierPoint[] points           # lambda ascending; empty without any
+uint32 n_states
+uint32 n_actions
+float32[] policies               # points x n_states x n_actions, row-major; empty when that is more than 10,000 numbers
+uint64 seed
+string version
+"#),
     ("apprentice_msgs/msg/PolicySet", r#"# Policies to judge against each other under every posterior from now on, until the next set.
 std_msgs/Header header
 string id                        # unique within a session
 uint64 number                    # 1, 2, … within a session: bounds on the sets of a session share delta by it
 string world_id                  # of tabular policies; may be empty when there are none
+uint32 chains_used               # the policies were chosen by the draws of so many first chains: bounds are of the others alone
 PolicyToJudge[] policies
 "#),
     ("apprentice_msgs/msg/PolicyToJudge", r#"# A policy, in one of three forms.
@@ -548,6 +660,66 @@ float64 rhat
 uint64 needed                    # effective draws that a bound takes
 float64 shift                    # by how much probability the bound looks further into the tail than the estimate does
 "#),
+    ("apprentice_msgs/msg/RiskPreference", r#"# How cautious the robot is to be. Of all that were said the one with the largest number counts, of equal numbers the larger id.
+std_msgs/Header header
+string id                        # unique within a session
+string source                    # who: a node or a person
+uint64 number                    # one more than the number of the newest RobustPolicy, or of one's own last preference
+float64 lambda                   # from 0, only the worst case counts, to 1, only the mean counts
+"#),
+    ("apprentice_msgs/msg/RobustPolicy", r#"# The policy to follow while the reward is uncertain: it makes (1 - lambda) CVaR_alpha(psi) + lambda E(return) largest, where
+# CVaR is the mean of the worst 1 - alpha of the rewards that fit the evidence. Published again when the posterior or lambda changes.
+uint8 OPTIMAL=0                  # proved: no policy is better by more than gap
+uint8 INACCURATE=1               # the solver came no closer than gap
+uint8 ITERATION_LIMIT=2          # the steps allowed did not suffice: see gap
+uint8 TIMED_OUT=3
+uint8 INFEASIBLE=4
+uint8 UNBOUNDED=5
+uint8 CONSTRAINTS_VIOLATED=6     # what the solver gave is no policy
+uint8 NOT_COMPUTED=7             # something is missing or wrong: see reason
+
+uint8 ROBUST=0                   # psi = return
+uint8 REGRET=1                   # psi = return less what the demonstrations in force return
+uint8 EVD=2                      # psi = return less the best return of each reward
+
+uint8 DIRECT=0                   # one linear program
+uint8 COLUMN_GENERATION=1
+
+std_msgs/Header header           # stamp of the posterior
+uint64 revision                  # of the posterior
+string evidence_hash
+WorldReference world
+uint8 outcome
+string reason                    # in words: what the policy promises, or why there is none and what it would take
+uint8 objective
+float64 alpha
+float64 lambda                   # 0: only the worst case counts; 1: only the mean
+uint64 preference_number         # of the RiskPreference that chose lambda; 0: the parameter
+string preference_id             # of it; empty: the parameter
+uint8 method
+string status                    # what the solver said last
+uint64 rounds
+float64 objective_value          # of the policy
+float64 gap                      # no policy's objective is larger by more than this; NaN without a policy, as are the next three
+float64 expected_return
+float64 value_at_risk            # alpha of the draws have a larger psi
+float64 conditional_value_at_risk
+uint64 n_draws                   # that it was chosen by
+uint32 chains_used               # their chains, the first of the posterior; the others judge it. 0: all, and none judge it
+uint64 held_out                  # draws of the other chains
+float64 held_out_mean            # of psi over these; NaN without them, as are the next four
+float64 held_out_cvar            # of psi over these
+float64 held_out_cvar_low        # confidence interval of it
+float64 held_out_cvar_high
+float64 confidence               # of the interval
+uint32 n_states
+uint32 n_actions
+float64[] action_probabilities   # n_states x n_actions, row-major; empty without a policy
+float32[] visits                 # discounted visits of each state: times a row above, the occupancy; 0 where it never comes
+float64[] feature_counts         # expected, discounted: one per weight
+uint64 seed
+string version
+"#),
     ("apprentice_msgs/msg/SceneObject", r#"# One thing on the table. Metres, in the frame of the scene's header: x to the right, y away from the robot, z up;
 # the origin is the table's near left corner on its surface.
 uint8 SHAPE_CYLINDER=0
@@ -589,6 +761,10 @@ SceneObject target               # the thing to place; its pose is ignored
 uint8 STATE_FEATURES=0           # n_states x features, row-major
 uint8 STATE_ACTION_FEATURES=1    # (n_states n_actions) x features, row state n_actions + action
 
+uint8 CELLS=0                    # shape: rows and columns of a grid of states, row by row
+uint8 ROAD=1                     # shape: lanes, the outer two off the road, and places of traffic, the farthest ahead first;
+                                 # state = (own lane (lanes - 2) + lane of the traffic, the roadside not counted) places + its place
+
 std_msgs/Header header
 string id                        # unique within a session
 float64 gamma                    # discount, 0 or more and below 1
@@ -603,7 +779,8 @@ uint32[] to_state
 float64[] probability            # of each state and action that has any, they sum to 1
 uint8 features_of
 float64[] features
-uint32[<=2] shape                # rows and columns for pictures; empty: none
+uint32[<=2] shape                # two numbers for pictures; empty: none
+uint8 shape_of                   # what they count
 "#),
     ("apprentice_msgs/msg/TrajectoryPreference", r#"# Which of several trajectories is better. Idempotent: the same id with the same content counts once.
 uint8 RANKED=0                   # worst first; with more than two, every pair counts
@@ -638,6 +815,51 @@ uint32 nanosec
     ("builtin_interfaces/msg/Time", r#"int32 sec
 uint32 nanosec
 "#),
+    ("control_msgs/action/FollowJointTrajectory", r#"trajectory_msgs/JointTrajectory trajectory
+trajectory_msgs/MultiDOFJointTrajectory multi_dof_trajectory
+JointTolerance[] path_tolerance
+JointComponentTolerance[] component_path_tolerance
+JointTolerance[] goal_tolerance
+JointComponentTolerance[] component_goal_tolerance
+builtin_interfaces/Duration goal_time_tolerance
+---
+int32 SUCCESSFUL=0
+int32 INVALID_GOAL=-1
+int32 INVALID_JOINTS=-2
+int32 OLD_HEADER_TIMESTAMP=-3
+int32 PATH_TOLERANCE_VIOLATED=-4
+int32 GOAL_TOLERANCE_VIOLATED=-5
+
+int32 error_code
+string error_string
+---
+std_msgs/Header header
+string[] joint_names
+trajectory_msgs/JointTrajectoryPoint desired
+trajectory_msgs/JointTrajectoryPoint actual
+trajectory_msgs/JointTrajectoryPoint error
+string[] multi_dof_joint_names
+trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_desired
+trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_actual
+trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_error
+"#),
+    ("control_msgs/msg/JointComponentTolerance", r#"uint16 X_AXIS=1
+uint16 Y_AXIS=2
+uint16 Z_AXIS=3
+uint16 TRANSLATION=4
+uint16 ROTATION=5
+
+string joint_name
+uint16 component
+float64 position
+float64 velocity
+float64 acceleration
+"#),
+    ("control_msgs/msg/JointTolerance", r#"string name
+float64 position
+float64 velocity
+float64 acceleration
+"#),
     ("diagnostic_msgs/msg/DiagnosticArray", r#"std_msgs/Header header
 DiagnosticStatus[] status
 "#),
@@ -668,6 +890,8 @@ float32 z
 "#),
     ("geometry_msgs/msg/PointStamped", r#"std_msgs/Header header
 Point point
+"#),
+    ("geometry_msgs/msg/Polygon", r#"Point32[] points
 "#),
     ("geometry_msgs/msg/Pose", r#"Point position
 Quaternion orientation
@@ -717,6 +941,79 @@ Vector3 torque
 "#),
     ("geometry_msgs/msg/WrenchStamped", r#"std_msgs/Header header
 Wrench wrench
+"#),
+    ("moveit_msgs/msg/AllowedCollisionEntry", r#"bool[] enabled
+"#),
+    ("moveit_msgs/msg/AllowedCollisionMatrix", r#"string[] entry_names
+AllowedCollisionEntry[] entry_values
+string[] default_entry_names
+bool[] default_entry_values
+"#),
+    ("moveit_msgs/msg/AttachedCollisionObject", r#"string link_name
+CollisionObject object
+string[] touch_links
+trajectory_msgs/JointTrajectory detach_posture
+float64 weight
+"#),
+    ("moveit_msgs/msg/CollisionObject", r#"byte ADD=0
+byte REMOVE=1
+byte APPEND=2
+byte MOVE=3
+
+std_msgs/Header header
+geometry_msgs/Pose pose
+string id
+object_recognition_msgs/ObjectType type
+shape_msgs/SolidPrimitive[] primitives
+geometry_msgs/Pose[] primitive_poses
+shape_msgs/Mesh[] meshes
+geometry_msgs/Pose[] mesh_poses
+shape_msgs/Plane[] planes
+geometry_msgs/Pose[] plane_poses
+string[] subframe_names
+geometry_msgs/Pose[] subframe_poses
+byte operation
+"#),
+    ("moveit_msgs/msg/LinkPadding", r#"string link_name
+float64 padding
+"#),
+    ("moveit_msgs/msg/LinkScale", r#"string link_name
+float64 scale
+"#),
+    ("moveit_msgs/msg/ObjectColor", r#"string id
+std_msgs/ColorRGBA color
+"#),
+    ("moveit_msgs/msg/PlanningScene", r#"string name
+RobotState robot_state
+string robot_model_name
+geometry_msgs/TransformStamped[] fixed_frame_transforms
+AllowedCollisionMatrix allowed_collision_matrix
+LinkPadding[] link_padding
+LinkScale[] link_scale
+ObjectColor[] object_colors
+PlanningSceneWorld world
+bool is_diff
+"#),
+    ("moveit_msgs/msg/PlanningSceneWorld", r#"CollisionObject[] collision_objects
+octomap_msgs/OctomapWithPose octomap
+"#),
+    ("moveit_msgs/msg/RobotState", r#"sensor_msgs/JointState joint_state
+sensor_msgs/MultiDOFJointState multi_dof_joint_state
+AttachedCollisionObject[] attached_collision_objects
+bool is_diff
+"#),
+    ("object_recognition_msgs/msg/ObjectType", r#"string key
+string db
+"#),
+    ("octomap_msgs/msg/Octomap", r#"std_msgs/Header header
+bool binary
+string id
+float64 resolution
+int8[] data
+"#),
+    ("octomap_msgs/msg/OctomapWithPose", r#"std_msgs/Header header
+geometry_msgs/Pose origin
+Octomap octomap
 "#),
     ("rcl_interfaces/msg/FloatingPointRange", r#"float64 from_value
 float64 to_value
@@ -828,6 +1125,38 @@ float64[] position
 float64[] velocity
 float64[] effort
 "#),
+    ("sensor_msgs/msg/MultiDOFJointState", r#"std_msgs/Header header
+string[] joint_names
+geometry_msgs/Transform[] transforms
+geometry_msgs/Twist[] twist
+geometry_msgs/Wrench[] wrench
+"#),
+    ("shape_msgs/msg/Mesh", r#"MeshTriangle[] triangles
+geometry_msgs/Point[] vertices
+"#),
+    ("shape_msgs/msg/MeshTriangle", r#"uint32[3] vertex_indices
+"#),
+    ("shape_msgs/msg/Plane", r#"float64[4] coef
+"#),
+    ("shape_msgs/msg/SolidPrimitive", r#"uint8 BOX=1
+uint8 SPHERE=2
+uint8 CYLINDER=3
+uint8 CONE=4
+uint8 PRISM=5
+uint8 BOX_X=0
+uint8 BOX_Y=1
+uint8 BOX_Z=2
+uint8 SPHERE_RADIUS=0
+uint8 CYLINDER_HEIGHT=0
+uint8 CYLINDER_RADIUS=1
+uint8 CONE_HEIGHT=0
+uint8 CONE_RADIUS=1
+uint8 PRISM_HEIGHT=0
+
+uint8 type
+float64[<=3] dimensions
+geometry_msgs/Polygon polygon
+"#),
     ("std_msgs/msg/Bool", r#"bool data
 "#),
     ("std_msgs/msg/Byte", r#"byte data
@@ -901,7 +1230,33 @@ float64[] accelerations
 float64[] effort
 builtin_interfaces/Duration time_from_start
 "#),
+    ("trajectory_msgs/msg/MultiDOFJointTrajectory", r#"std_msgs/Header header
+string[] joint_names
+MultiDOFJointTrajectoryPoint[] points
+"#),
+    ("trajectory_msgs/msg/MultiDOFJointTrajectoryPoint", r#"geometry_msgs/Transform[] transforms
+geometry_msgs/Twist[] velocities
+geometry_msgs/Twist[] accelerations
+builtin_interfaces/Duration time_from_start
+"#),
     ("unique_identifier_msgs/msg/UUID", r#"uint8[16] uuid
+"#),
+    ("vision_msgs/msg/BoundingBox3D", r#"geometry_msgs/Pose center
+geometry_msgs/Vector3 size
+"#),
+    ("vision_msgs/msg/Detection3D", r#"std_msgs/Header header
+ObjectHypothesisWithPose[] results
+BoundingBox3D bbox
+string id
+"#),
+    ("vision_msgs/msg/Detection3DArray", r#"std_msgs/Header header
+Detection3D[] detections
+"#),
+    ("vision_msgs/msg/ObjectHypothesis", r#"string class_id
+float64 score
+"#),
+    ("vision_msgs/msg/ObjectHypothesisWithPose", r#"ObjectHypothesis hypothesis
+geometry_msgs/PoseWithCovariance pose
 "#),
     ("visualization_msgs/msg/InteractiveMarker", r#"std_msgs/Header header
 geometry_msgs/Pose pose

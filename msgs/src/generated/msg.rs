@@ -192,6 +192,27 @@ impl crate::Message for FeatureTrajectory {
     const TYPE: &'static str = "apprentice_msgs/msg/FeatureTrajectory";
 }
 
+/// The best policy for one lambda.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct FrontierPoint {
+    /// (`float64`)
+    pub lambda: f64,
+    /// as in RobustPolicy (`uint8`)
+    pub outcome: u8,
+    /// (`float64`)
+    pub gap: f64,
+    /// (`float64`)
+    pub expected_return: f64,
+    /// (`float64`)
+    pub value_at_risk: f64,
+    /// (`float64`)
+    pub conditional_value_at_risk: f64,
+}
+
+impl crate::Message for FrontierPoint {
+    const TYPE: &'static str = "apprentice_msgs/msg/FrontierPoint";
+}
+
 /// A node is alive. Twice a second.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Heartbeat {
@@ -261,6 +282,10 @@ pub struct LessonStatus {
     pub bound_m: f64,
     /// (`float64`)
     pub epsilon_m: f64,
+    /// about a world: bound on the normalised loss of the robot's policy; NaN without one (`float64`)
+    pub loss_bound: f64,
+    /// the lesson about a world ends below it; NaN when it is about a table (`float64`)
+    pub epsilon_loss: f64,
 }
 
 impl LessonStatus {
@@ -606,6 +631,47 @@ impl crate::Message for PolicyBounds {
     const TYPE: &'static str = "apprentice_msgs/msg/PolicyBounds";
 }
 
+/// What every lambda buys: expected return against the worst case (dissertation figure 7.3), of one posterior.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PolicyFrontier {
+    /// stamp of the posterior (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// of the posterior (`uint64`)
+    pub revision: u64,
+    /// (`string`)
+    pub evidence_hash: std::string::String,
+    /// (`WorldReference`)
+    pub world: super::msg::WorldReference,
+    /// as in RobustPolicy: the worst of the points' (`uint8`)
+    pub outcome: u8,
+    /// (`string`)
+    pub reason: std::string::String,
+    /// as in RobustPolicy (`uint8`)
+    pub objective: u8,
+    /// (`float64`)
+    pub alpha: f64,
+    /// (`uint64`)
+    pub n_draws: u64,
+    /// as in RobustPolicy (`uint32`)
+    pub chains_used: u32,
+    /// lambda ascending; empty without any (`FrontierPoint[]`)
+    pub points: Vec<super::msg::FrontierPoint>,
+    /// (`uint32`)
+    pub n_states: u32,
+    /// (`uint32`)
+    pub n_actions: u32,
+    /// points x n_states x n_actions, row-major; empty when that is more than 10,000 numbers (`float32[]`)
+    pub policies: Vec<f32>,
+    /// (`uint64`)
+    pub seed: u64,
+    /// (`string`)
+    pub version: std::string::String,
+}
+
+impl crate::Message for PolicyFrontier {
+    const TYPE: &'static str = "apprentice_msgs/msg/PolicyFrontier";
+}
+
 /// Policies to judge against each other under every posterior from now on, until the next set.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PolicySet {
@@ -617,6 +683,8 @@ pub struct PolicySet {
     pub number: u64,
     /// of tabular policies; may be empty when there are none (`string`)
     pub world_id: std::string::String,
+    /// the policies were chosen by the draws of so many first chains: bounds are of the others alone (`uint32`)
+    pub chains_used: u32,
     /// (`PolicyToJudge[]`)
     pub policies: Vec<super::msg::PolicyToJudge>,
 }
@@ -903,6 +971,132 @@ impl crate::Message for RiskBound {
     const TYPE: &'static str = "apprentice_msgs/msg/RiskBound";
 }
 
+/// How cautious the robot is to be. Of all that were said the one with the largest number counts, of equal numbers the larger id.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RiskPreference {
+    /// (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// unique within a session (`string`)
+    pub id: std::string::String,
+    /// who: a node or a person (`string`)
+    pub source: std::string::String,
+    /// one more than the number of the newest RobustPolicy, or of one's own last preference (`uint64`)
+    pub number: u64,
+    /// from 0, only the worst case counts, to 1, only the mean counts (`float64`)
+    pub lambda: f64,
+}
+
+impl crate::Message for RiskPreference {
+    const TYPE: &'static str = "apprentice_msgs/msg/RiskPreference";
+}
+
+/// The policy to follow while the reward is uncertain: it makes (1 - lambda) CVaR_alpha(psi) + lambda E(return) largest, where
+/// CVaR is the mean of the worst 1 - alpha of the rewards that fit the evidence. Published again when the posterior or lambda changes.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RobustPolicy {
+    /// stamp of the posterior (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// of the posterior (`uint64`)
+    pub revision: u64,
+    /// (`string`)
+    pub evidence_hash: std::string::String,
+    /// (`WorldReference`)
+    pub world: super::msg::WorldReference,
+    /// (`uint8`)
+    pub outcome: u8,
+    /// in words: what the policy promises, or why there is none and what it would take (`string`)
+    pub reason: std::string::String,
+    /// (`uint8`)
+    pub objective: u8,
+    /// (`float64`)
+    pub alpha: f64,
+    /// 0: only the worst case counts; 1: only the mean (`float64`)
+    pub lambda: f64,
+    /// of the RiskPreference that chose lambda; 0: the parameter (`uint64`)
+    pub preference_number: u64,
+    /// of it; empty: the parameter (`string`)
+    pub preference_id: std::string::String,
+    /// (`uint8`)
+    pub method: u8,
+    /// what the solver said last (`string`)
+    pub status: std::string::String,
+    /// (`uint64`)
+    pub rounds: u64,
+    /// of the policy (`float64`)
+    pub objective_value: f64,
+    /// no policy's objective is larger by more than this; NaN without a policy, as are the next three (`float64`)
+    pub gap: f64,
+    /// (`float64`)
+    pub expected_return: f64,
+    /// alpha of the draws have a larger psi (`float64`)
+    pub value_at_risk: f64,
+    /// (`float64`)
+    pub conditional_value_at_risk: f64,
+    /// that it was chosen by (`uint64`)
+    pub n_draws: u64,
+    /// their chains, the first of the posterior; the others judge it. 0: all, and none judge it (`uint32`)
+    pub chains_used: u32,
+    /// draws of the other chains (`uint64`)
+    pub held_out: u64,
+    /// of psi over these; NaN without them, as are the next four (`float64`)
+    pub held_out_mean: f64,
+    /// of psi over these (`float64`)
+    pub held_out_cvar: f64,
+    /// confidence interval of it (`float64`)
+    pub held_out_cvar_low: f64,
+    /// (`float64`)
+    pub held_out_cvar_high: f64,
+    /// of the interval (`float64`)
+    pub confidence: f64,
+    /// (`uint32`)
+    pub n_states: u32,
+    /// (`uint32`)
+    pub n_actions: u32,
+    /// n_states x n_actions, row-major; empty without a policy (`float64[]`)
+    pub action_probabilities: Vec<f64>,
+    /// discounted visits of each state: times a row above, the occupancy; 0 where it never comes (`float32[]`)
+    pub visits: Vec<f32>,
+    /// expected, discounted: one per weight (`float64[]`)
+    pub feature_counts: Vec<f64>,
+    /// (`uint64`)
+    pub seed: u64,
+    /// (`string`)
+    pub version: std::string::String,
+}
+
+impl RobustPolicy {
+    /// proved: no policy is better by more than gap
+    pub const OPTIMAL: u8 = 0;
+    /// the solver came no closer than gap
+    pub const INACCURATE: u8 = 1;
+    /// the steps allowed did not suffice: see gap
+    pub const ITERATION_LIMIT: u8 = 2;
+    /// The constant `TIMED_OUT`.
+    pub const TIMED_OUT: u8 = 3;
+    /// The constant `INFEASIBLE`.
+    pub const INFEASIBLE: u8 = 4;
+    /// The constant `UNBOUNDED`.
+    pub const UNBOUNDED: u8 = 5;
+    /// what the solver gave is no policy
+    pub const CONSTRAINTS_VIOLATED: u8 = 6;
+    /// something is missing or wrong: see reason
+    pub const NOT_COMPUTED: u8 = 7;
+    /// psi = return
+    pub const ROBUST: u8 = 0;
+    /// psi = return less what the demonstrations in force return
+    pub const REGRET: u8 = 1;
+    /// psi = return less the best return of each reward
+    pub const EVD: u8 = 2;
+    /// one linear program
+    pub const DIRECT: u8 = 0;
+    /// The constant `COLUMN_GENERATION`.
+    pub const COLUMN_GENERATION: u8 = 1;
+}
+
+impl crate::Message for RobustPolicy {
+    const TYPE: &'static str = "apprentice_msgs/msg/RobustPolicy";
+}
+
 /// One thing on the table. Metres, in the frame of the scene's header: x to the right, y away from the robot, z up;
 /// the origin is the table's near left corner on its surface.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -1022,9 +1216,11 @@ pub struct TabularWorld {
     pub features_of: u8,
     /// (`float64[]`)
     pub features: Vec<f64>,
-    /// rows and columns for pictures; empty: none (`uint32[<=2]`)
+    /// two numbers for pictures; empty: none (`uint32[<=2]`)
     #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 2>")]
     pub shape: Vec<u32>,
+    /// what they count (`uint8`)
+    pub shape_of: u8,
 }
 
 impl TabularWorld {
@@ -1032,6 +1228,10 @@ impl TabularWorld {
     pub const STATE_FEATURES: u8 = 0;
     /// (n_states n_actions) x features, row state n_actions + action
     pub const STATE_ACTION_FEATURES: u8 = 1;
+    /// shape: rows and columns of a grid of states, row by row
+    pub const CELLS: u8 = 0;
+    /// shape: lanes, the outer two off the road, and places of traffic, the farthest ahead first;
+    pub const ROAD: u8 = 1;
 }
 
 impl crate::Message for TabularWorld {

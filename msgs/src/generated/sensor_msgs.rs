@@ -38,3 +38,22 @@ pub struct JointState {
 impl crate::Message for JointState {
     const TYPE: &'static str = "sensor_msgs/msg/JointState";
 }
+
+/// The message `sensor_msgs/msg/MultiDOFJointState`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct MultiDOFJointState {
+    /// (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// (`string[]`)
+    pub joint_names: Vec<std::string::String>,
+    /// (`geometry_msgs/Transform[]`)
+    pub transforms: Vec<super::geometry_msgs::Transform>,
+    /// (`geometry_msgs/Twist[]`)
+    pub twist: Vec<super::geometry_msgs::Twist>,
+    /// (`geometry_msgs/Wrench[]`)
+    pub wrench: Vec<super::geometry_msgs::Wrench>,
+}
+
+impl crate::Message for MultiDOFJointState {
+    const TYPE: &'static str = "sensor_msgs/msg/MultiDOFJointState";
+}

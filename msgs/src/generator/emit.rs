@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::resolve::{Item, Resolved, ServiceItem};
+use super::resolve::{ActionItem, Item, Resolved, ServiceItem};
 use super::{COMMAND, GenerateError, Kind, MAX_ARRAY, OWN_PACKAGE, Source};
 use crate::interface::{Arity, Base, Constant, Field, Literal, Primitive};
 
@@ -22,6 +22,10 @@ pub(super) fn emit(sources: &[Source], resolved: &Resolved) -> Result<BTreeMap<S
     for service in &resolved.services {
         let text = modules.entry(module(&service.package, service.kind)).or_default();
         emit_service(text, service);
+    }
+    for action in &resolved.actions {
+        let text = modules.entry(module(&action.package, Kind::Action)).or_default();
+        emit_action(text, action);
     }
     let registry = emit_registry(sources, modules.keys());
     let mut files: BTreeMap<String, String> = modules
@@ -58,6 +62,7 @@ fn emit_registry<'a>(sources: &[Source], modules: impl Iterator<Item = &'a Strin
     for (name, kind, about) in [
         ("MESSAGES", Kind::Message, "Names of all messages, sorted."),
         ("SERVICES", Kind::Service, "Names of all services, sorted."),
+        ("ACTIONS", Kind::Action, "Names of all actions, sorted."),
     ] {
         let _ = writeln!(out, "\n/// {about}\npub(crate) const {name}: &[&str] = &[");
         for source in sources.iter().filter(|source| source.kind == kind) {
@@ -96,6 +101,45 @@ fn emit_service(out: &mut String, service: &ServiceItem) {
          type Request = {name}Request;\n    \
          type Response = {name}Response;\n    \
          const TYPE: &'static str = \"{type_name}\";\n}}\n"
+    );
+}
+
+fn emit_action(out: &mut String, action: &ActionItem) {
+    let name = rust_name(&action.name);
+    let type_name = format!("{}/action/{}", action.package, action.name);
+    let id = "super::unique_identifier_msgs::UUID";
+    let stamp = "super::builtin_interfaces::Time";
+    let _ = write!(
+        out,
+        "\n/// The action `{type_name}`.\n\
+         #[derive(Debug, Clone, Copy, PartialEq, Eq)]\n\
+         pub struct {name};\n\n\
+         impl crate::Action for {name} {{\n    \
+         type Goal = {name}Goal;\n    \
+         type Result = {name}Result;\n    \
+         type Feedback = {name}Feedback;\n    \
+         type SendGoal = {name}SendGoal;\n    \
+         type GetResult = {name}GetResult;\n    \
+         type FeedbackMessage = {name}FeedbackMessage;\n    \
+         const TYPE: &'static str = \"{type_name}\";\n\n    \
+         fn goal_request(goal_id: {id}, goal: {name}Goal) -> {name}SendGoalRequest {{\n        \
+         {name}SendGoalRequest {{ goal_id, goal }}\n    }}\n\n    \
+         fn goal_of(request: {name}SendGoalRequest) -> ({id}, {name}Goal) {{\n        \
+         (request.goal_id, request.goal)\n    }}\n\n    \
+         fn goal_response(accepted: bool, stamp: {stamp}) -> {name}SendGoalResponse {{\n        \
+         {name}SendGoalResponse {{ accepted, stamp }}\n    }}\n\n    \
+         fn is_accepted(response: &{name}SendGoalResponse) -> bool {{\n        response.accepted\n    }}\n\n    \
+         fn result_request(goal_id: {id}) -> {name}GetResultRequest {{\n        \
+         {name}GetResultRequest {{ goal_id }}\n    }}\n\n    \
+         fn result_id(request: &{name}GetResultRequest) -> {id} {{\n        request.goal_id\n    }}\n\n    \
+         fn result_response(status: i8, result: {name}Result) -> {name}GetResultResponse {{\n        \
+         {name}GetResultResponse {{ status, result }}\n    }}\n\n    \
+         fn result_of(response: {name}GetResultResponse) -> (i8, {name}Result) {{\n        \
+         (response.status, response.result)\n    }}\n\n    \
+         fn feedback_message(goal_id: {id}, feedback: {name}Feedback) -> {name}FeedbackMessage {{\n        \
+         {name}FeedbackMessage {{ goal_id, feedback }}\n    }}\n\n    \
+         fn feedback_of(message: {name}FeedbackMessage) -> ({id}, {name}Feedback) {{\n        \
+         (message.goal_id, message.feedback)\n    }}\n}}\n"
     );
 }
 

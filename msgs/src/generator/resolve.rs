@@ -25,16 +25,25 @@ pub(super) struct ServiceItem {
     pub name: String,
 }
 
+/// One action to be; its parts are among the messages and services.
+pub(super) struct ActionItem {
+    pub package: String,
+    /// Name without package.
+    pub name: String,
+}
+
 /// What [`resolve`] finds.
 pub(super) struct Resolved {
     pub items: Vec<Item>,
     pub services: Vec<ServiceItem>,
+    pub actions: Vec<ActionItem>,
 }
 
 /// Parses `sources` and checks that every nested type is among them and that none contains itself.
 pub(super) fn resolve(sources: &[Source]) -> Result<Resolved, GenerateError> {
     let mut parsed = Vec::new();
     let mut services = Vec::new();
+    let mut actions = Vec::new();
     for source in sources {
         let (package, name) = (source.package.as_str(), source.name.as_str());
         let mut service = |name: String| {
@@ -57,6 +66,7 @@ pub(super) fn resolve(sources: &[Source]) -> Result<Resolved, GenerateError> {
                 parsed.extend(derived.map(|m| (source.kind, m)));
                 service(format!("{name}_SendGoal"));
                 service(format!("{name}_GetResult"));
+                actions.push(ActionItem { package: package.to_owned(), name: name.to_owned() });
             }
         }
     }
@@ -74,7 +84,7 @@ pub(super) fn resolve(sources: &[Source]) -> Result<Resolved, GenerateError> {
             Item { message, kind, copy, eq }
         })
         .collect();
-    Ok(Resolved { items, services })
+    Ok(Resolved { items, services, actions })
 }
 
 #[derive(Clone, Copy)]
