@@ -31,15 +31,24 @@ pub fn successor_features(mdp: &Mdp, policy: &Policy) -> Result<Vec<f64>, MdpErr
 /// # Errors
 /// A policy that is not one of `mdp`.
 pub fn occupancy(mdp: &Mdp, policy: &Policy) -> Result<Vec<f64>, MdpError> {
-    policy.check(mdp)?;
     let n_actions = mdp.n_actions();
-    let mut visits = mdp.initial().to_vec();
-    Chain::new(mdp, policy, 1).visits(&mut visits);
+    let visits = state_visits(mdp, policy)?;
     let mut occupancy = vec![0.0; mdp.n_states() * n_actions];
     for (state, (row, visits)) in occupancy.chunks_mut(n_actions).zip(visits).enumerate() {
         policy.for_each_action(n_actions, state, |action, p| row[action] = p * visits);
     }
     Ok(occupancy)
+}
+
+/// Discounted visits E[Σ_t γᵗ I(s_t = s)] over the initial distribution: S numbers.
+///
+/// # Errors
+/// A policy that is not one of `mdp`.
+pub(crate) fn state_visits(mdp: &Mdp, policy: &Policy) -> Result<Vec<f64>, MdpError> {
+    policy.check(mdp)?;
+    let mut visits = mdp.initial().to_vec();
+    Chain::new(mdp, policy, 1).visits(&mut visits);
+    Ok(visits)
 }
 
 /// Expected feature counts Φ(π) = E[Σ_t γᵗ φ(s_t, a_t)] over the initial distribution (dissertation eq. 3.2): k numbers.

@@ -20,6 +20,8 @@ use crate::vertex::{Best, Game, Vertex};
 const PATIENCE: usize = 20;
 /// … by this share at first, and at most.
 const SMOOTHING: f64 = 0.5;
+/// Most vertices that are kept.
+const MAX_VERTICES: usize = 64;
 /// Gains below this share of the unit are rounding.
 const ROUNDING: f64 = 1e-11;
 
@@ -30,10 +32,8 @@ pub(crate) struct Columns<'a> {
     scenarios: &'a Scenarios,
     planner: Planner<'a>,
     plans: Vec<Plan>,
-    /// Discounted visits of every state under the plans that were ever part of an answer.
-    visits: Vec<Option<Vec<f64>>>,
-    /// With its α.
-    vertex: Option<(f64, Vertex)>,
+    /// The last vertex of every λ so far, all for one α.
+    vertices: Vec<(Level, Vertex)>,
     /// Of the best bound of the last level.
     center: Option<Price>,
     /// The optimal value for the mean reward, for plan 0.
@@ -63,8 +63,7 @@ impl<'a> Columns<'a> {
         unit: f64,
     ) -> Self {
         let (mean_bound, plan) = mean;
-        let (plans, visits) = (vec![plan], vec![None]);
-        Self { mdp, scenarios, planner, plans, visits, vertex: None, center: None, mean_bound, unit }
+        Self { mdp, scenarios, planner, plans: vec![plan], vertices: vec![], center: None, mean_bound, unit }
     }
 
     /// The best policy for `level` within `tolerance` of the unit, or the best after `max_rounds` rounds. No policy is known to
@@ -103,10 +102,7 @@ impl<'a> Columns<'a> {
     }
 
     fn go_on(&mut self, level: Level, search: &mut Search, tolerance: f64, max_rounds: usize) -> Result<(), MdpError> {
-        let mut vertex = match self.vertex.take() {
-            Some((alpha, vertex)) if alpha == level.alpha => vertex,
-            _ => self.first_vertex(level),
-        };
+        let mut vertex = self.nearest_vertex(level);
         let mut smoothing = SMOOTHING;
         while search.upper_bound - search.objective > tolerance * self.unit {
             if search.rounds >= max_rounds {
@@ -142,7 +138,11 @@ impl<'a> Columns<'a> {
                 break;
             }
         }
-        self.vertex = Some((level.alpha, vertex));
+        self.vertices.retain(|(known, _)| known.alpha == level.alpha && known.lambda != level.lambda);
+        if self.vertices.len() == MAX_VERTICES {
+            self.vertices.remove(0);
+        }
+        self.vertices.push((level, vertex));
         Ok(())
     }
 
@@ -174,11 +174,20 @@ impl<'a> Columns<'a> {
             return Ok((bound, known, false));
         }
         self.plans.push(plan);
-        self.visits.push(None);
         Ok((bound, self.plans.len() - 1, true))
     }
 
-    /// Where a search begins.
+    /// Where a search begins: where that of the nearest λ ended, if there was any.
+    fn nearest_vertex(&self, level: Level) -> Vertex {
+        let known = self.vertices.iter().filter(|(known, _)| known.alpha == level.alpha);
+        let distance = |known: &Level| (known.lambda - level.lambda).abs();
+        match known.min_by(|(a, _), (b, _)| distance(a).total_cmp(&distance(b))) {
+            Some((_, vertex)) => vertex.clone(),
+            None => self.first_vertex(level),
+        }
+    }
+
+    /// Where the first search begins.
     fn first_vertex(&self, level: Level) -> Vertex {
         let values = self.scenarios.values(&self.plans[0].counts);
         Vertex::new(self.scenarios, level, 0, &values, self.unit)
@@ -207,12 +216,12 @@ impl<'a> Columns<'a> {
         let n_actions = self.mdp.n_actions();
         let mut mixed = vec![0.0; self.mdp.n_states() * n_actions];
         for &(index, share) in shares {
-            let plan = &self.plans[index];
-            if self.visits[index].is_none() {
+            let plan = &mut self.plans[index];
+            if plan.visits.is_none() {
                 let rows = occupancy(self.mdp, &plan.policy())?;
-                self.visits[index] = Some(rows.chunks(n_actions).map(|row| row.iter().sum()).collect());
+                plan.visits = Some(rows.chunks(n_actions).map(|row| row.iter().sum()).collect());
             }
-            let visits = self.visits[index].as_ref().expect("computed above");
+            let visits = plan.visits.as_ref().expect("computed above");
             for ((row, &action), visits) in mixed.chunks_mut(n_actions).zip(&plan.actions).zip(visits) {
                 row[action as usize] += share * visits;
             }

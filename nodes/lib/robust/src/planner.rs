@@ -46,6 +46,8 @@ pub(crate) struct Plan {
     pub(crate) actions: Vec<u32>,
     /// Its feature counts: k numbers.
     pub(crate) counts: Vec<f64>,
+    /// Its discounted visits of every state, where they are known already.
+    pub(crate) visits: Option<Vec<f64>>,
 }
 
 impl Plan {
@@ -92,7 +94,8 @@ impl<'a> Planner<'a> {
         let (mut bound, mut plan) = optimum(self.mdp, &mut self.solver, &weights, |optimum| {
             let actions = optimum.policy().iter().map(|&action| action as u32).collect();
             let counts = optimum.feature_counts().to_vec();
-            (optimum.value() + optimum.error_bound(), Plan { actions, counts })
+            let visits = optimum.known_visits().map(<[f64]>::to_vec);
+            (optimum.value() + optimum.error_bound(), Plan { actions, counts, visits })
         });
         // At a long horizon the solver takes actions for ties that are not.
         if bound - dot(&weights, &plan.counts) > self.precision {
@@ -131,7 +134,7 @@ pub(crate) fn optimal_value(mdp: &Mdp, solver: &mut Solver<'_>, weights: &[f64])
     let (value, rough) = optimum(mdp, solver, weights, |optimum| {
         let rough = optimum.error_bound() > ROUGH * optimum.value().abs();
         let actions = || optimum.policy().iter().map(|&action| action as u32).collect();
-        (optimum.value(), rough.then(|| Plan { actions: actions(), counts: optimum.feature_counts().to_vec() }))
+        (optimum.value(), rough.then(|| Plan { actions: actions(), counts: optimum.feature_counts().to_vec(), visits: None }))
     });
     let polished = rough.and_then(|plan| polish(mdp, weights, &plan).ok());
     polished.map_or(value, |(_, plan)| value.max(dot(weights, &plan.counts)))
@@ -167,5 +170,6 @@ fn polish(mdp: &Mdp, weights: &[f64], plan: &Plan) -> Result<(f64, Plan), MdpErr
         }
     }
     let counts = feature_counts(mdp, &Policy::Deterministic(actions.clone()))?;
-    Ok((bound, Plan { actions: actions.into_iter().map(|action| action as u32).collect(), counts }))
+    let actions = actions.into_iter().map(|action| action as u32).collect();
+    Ok((bound, Plan { actions, counts, visits: None }))
 }

@@ -93,6 +93,20 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// As [`Self::solve`]; no λ at all, or more than [`MAX_POINTS`].
     pub fn frontier(&self, alpha: f64, lambdas: &[f64], settings: &Settings) -> Result<Vec<Solution>, RobustError> {
+        self.frontier_watched(alpha, lambdas, settings, &mut |_| {})
+    }
+
+    /// The same, telling `watch` of each solution as it is found; that is not in the order given.
+    ///
+    /// # Errors
+    /// As [`Self::frontier`].
+    pub fn frontier_watched(
+        &self,
+        alpha: f64,
+        lambdas: &[f64],
+        settings: &Settings,
+        watch: &mut dyn FnMut(&Solution),
+    ) -> Result<Vec<Solution>, RobustError> {
         settings.check()?;
         if lambdas.is_empty() {
             return Err(RobustError::Empty { what: "lambdas" });
@@ -111,6 +125,7 @@ impl<'a> Problem<'a> {
             let (otherwise, unit) = ((!self.uniform_rest).then_some(&self.mean.1.actions[..]), self.unit);
             let solution =
                 Solution::new(self.mdp, &self.scenarios, level, candidate, otherwise, unit, settings.tolerance);
+            watch(&solution);
             solutions[index] = Some(solution);
         }
         Ok(solutions.into_iter().flatten().collect())
@@ -183,6 +198,12 @@ impl<'a> Problem<'a> {
         let mut points: Vec<(f64, f64)> = values.into_iter().zip(self.scenarios.masses.iter().copied()).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(points)
+    }
+
+    /// States that no policy ever visits, ascending.
+    pub fn unreachable(&self) -> Vec<usize> {
+        let reached = &self.reachable.states;
+        (0..self.mdp.n_states()).filter(|state| reached.binary_search(state).is_err()).collect()
     }
 
     /// Different draws of positive probability.

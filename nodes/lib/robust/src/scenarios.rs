@@ -12,6 +12,8 @@ use crate::planner::optimal_value;
 pub const WEIGHT_TOLERANCE: f64 = 1e-6;
 /// Most numbers that draws may be.
 pub const MAX_NUMBERS: usize = 100_000_000;
+/// Draws that products are computed of at a time.
+const STRETCH: usize = 1024;
 /// Draws that share a solver.
 const BLOCK: usize = 256;
 
@@ -21,6 +23,8 @@ pub(crate) struct Scenarios {
     pub(crate) n_features: usize,
     /// w: N × k, row by row.
     pub(crate) draws: Vec<f64>,
+    /// The same, k × N: all draws of a feature together, for products with all of them.
+    by_feature: Vec<f64>,
     /// p: N numbers above 0 that sum to 1.
     pub(crate) masses: Vec<f64>,
     /// b: N numbers.
@@ -52,7 +56,12 @@ impl Scenarios {
         for (mass, w) in masses.iter().zip(draws.chunks(k)) {
             mean.iter_mut().zip(w).for_each(|(mean, w)| *mean += mass * w);
         }
-        Ok(Self { n_features: k, draws, masses, offsets, mean })
+        let n = masses.len();
+        let mut by_feature = vec![0.0; draws.len()];
+        for (i, w) in draws.chunks(k).enumerate() {
+            w.iter().enumerate().for_each(|(j, w)| by_feature[j * n + i] = *w);
+        }
+        Ok(Self { n_features: k, draws, by_feature, masses, offsets, mean })
     }
 
     /// Draws N.
@@ -67,7 +76,23 @@ impl Scenarios {
 
     /// ψ of a policy with feature counts μ: N numbers.
     pub(crate) fn values(&self, counts: &[f64]) -> Vec<f64> {
-        self.draws.chunks(self.n_features).zip(&self.offsets).map(|(w, b)| dot(w, counts) - b).collect()
+        let mut values = self.products(counts);
+        values.iter_mut().zip(&self.offsets).for_each(|(value, b)| *value -= b);
+        values
+    }
+
+    /// w_iᵀx of every draw: N numbers.
+    pub(crate) fn products(&self, x: &[f64]) -> Vec<f64> {
+        let n = self.n();
+        let mut products = vec![0.0; n];
+        // A stretch at a time, which stays where the processor has it at hand.
+        for (stretch, sums) in products.chunks_mut(STRETCH).enumerate() {
+            for (w, x) in self.by_feature.chunks(n).zip(x) {
+                let w = &w[stretch * STRETCH..][..sums.len()];
+                sums.iter_mut().zip(w).for_each(|(sum, w)| *sum += w * x);
+            }
+        }
+        products
     }
 
     /// Expected return Σ p_i w_iᵀμ.

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use crate::evaluate::{feature_counts, successor_features};
+use crate::evaluate::{state_visits, successor_features};
 use crate::model::Mdp;
 use crate::policy::Policy;
 
@@ -20,13 +20,15 @@ pub(super) struct Evaluated {
     /// Successor features k × S: all states of a feature together.
     psi: OnceLock<Vec<f64>>,
     counts: OnceLock<Vec<f64>>,
+    /// Discounted visits of every state, where counts were computed from them.
+    visits: OnceLock<Vec<f64>>,
 }
 
 impl Evaluated {
     /// A policy, not evaluated yet.
     pub(super) fn new(policy: Vec<usize>) -> Self {
         let actions = policy.iter().map(|&action| action as f64).collect();
-        Self { policy, actions, psi: OnceLock::new(), counts: OnceLock::new() }
+        Self { policy, actions, psi: OnceLock::new(), counts: OnceLock::new(), visits: OnceLock::new() }
     }
 
     /// A policy with its successor features, k × S.
@@ -55,11 +57,26 @@ impl Evaluated {
         self.counts.get_or_init(|| {
             let Some(psi) = self.known_psi() else {
                 let policy = Policy::Deterministic(self.policy.clone());
-                return feature_counts(mdp, &policy).expect("a greedy policy is valid");
+                let visits = state_visits(mdp, &policy).expect("a greedy policy is valid");
+                let mut counts = vec![0.0; mdp.n_features()];
+                for ((state, &action), visits) in self.policy.iter().enumerate().zip(&visits) {
+                    for (count, phi) in counts.iter_mut().zip(mdp.features(state, action)) {
+                        *count += visits * phi;
+                    }
+                }
+                self.visits.get_or_init(|| visits);
+                return counts;
             };
             let mean = |psi: &[f64]| psi.iter().zip(mdp.initial()).map(|(psi, p)| p * psi).sum();
             psi.chunks_exact(mdp.n_states()).map(mean).collect()
         })
+    }
+}
+
+impl Evaluated {
+    /// Discounted visits of every state if they are known.
+    pub(super) fn known_visits(&self) -> Option<&[f64]> {
+        self.visits.get().map(Vec::as_slice)
     }
 }
 

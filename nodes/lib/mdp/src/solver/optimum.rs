@@ -132,6 +132,11 @@ impl<'a> Optimum<'a> {
         }
     }
 
+    /// Discounted visits of every state by the optimal policy, S numbers, where [`Self::feature_counts`] was computed from them.
+    pub fn known_visits(&self) -> Option<&[f64]> {
+        self.evaluated.known_visits()
+    }
+
     /// Φ of the optimal policy: k numbers.
     pub fn feature_counts(&self) -> &[f64] {
         self.evaluated.counts(self.mdp)

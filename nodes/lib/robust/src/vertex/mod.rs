@@ -130,7 +130,8 @@ impl Vertex {
             return None;
         }
         let counts = self.mixed(game, &shares);
-        let mut above: Vec<f64> = (0..self.below.len()).map(|i| self.payoff(game, i, &counts) - edge).collect();
+        let mut above = game.scenarios.products(&counts);
+        above.iter_mut().zip(&self.offsets).for_each(|(above, b)| *above = *above - b - edge);
         self.edge.iter().for_each(|&i| above[i] = 0.0);
         for (below, above) in self.below.iter_mut().zip(&above) {
             if above.abs() > ROUNDING * self.unit {

@@ -1,5 +1,8 @@
 //! One step of the search: what improves a vertex most, and how far that pays.
 
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
 use super::{Game, Point, Prices, ROUNDING, Vertex};
 use crate::scenarios::dot;
 
@@ -25,6 +28,36 @@ enum End {
     /// This draw comes to the edge.
     Draw(usize),
 }
+
+/// A draw that comes to the edge; the greatest is the one that comes first.
+#[derive(Debug, Clone, Copy)]
+struct Crossing {
+    /// Length of the step until then.
+    at: f64,
+    draw: usize,
+    /// How fast its ψ − σ changes.
+    speed: f64,
+}
+
+impl Ord for Crossing {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.at.total_cmp(&self.at).then(other.draw.cmp(&self.draw))
+    }
+}
+
+impl PartialOrd for Crossing {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Crossing {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Crossing {}
 
 /// How shares, σ and feature counts change per unit of a step.
 struct Direction {
@@ -121,21 +154,21 @@ impl Vertex {
                 (length, end) = (share.max(0.0) / -x, Some(End::Policy(place)));
             }
         }
-        // Length at which each draw crosses, the draw, and by how much that slows the gain down.
-        let mut crossings: Vec<(f64, usize, f64)> = vec![];
-        for (i, above) in point.above.iter().enumerate() {
-            let speed = dot(game.scenarios.draw(i), &direction.counts) - direction.edge;
-            let comes = if self.below[i] { speed > STILL * self.unit } else { speed < -STILL * self.unit };
-            let at = above.abs() / speed.abs();
-            if comes && at <= length && !self.edge.contains(&i) {
-                let held = game.level.held(game.scenarios.masses[i]);
-                crossings.push((at, i, game.level.risk() * held * speed.abs()));
+        let still = STILL * self.unit;
+        let mut crossings: Vec<Crossing> = vec![];
+        let speeds = game.scenarios.products(&direction.counts);
+        for (i, ((above, below), speed)) in point.above.iter().zip(&self.below).zip(speeds).enumerate() {
+            let speed = speed - direction.edge;
+            let comes = if *below { speed > still } else { speed < -still };
+            if comes && above.abs() <= length * speed.abs() && !self.edge.contains(&i) {
+                crossings.push(Crossing { at: above.abs() / speed.abs(), draw: i, speed: speed.abs() });
             }
         }
-        crossings.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // Few of them are ever passed.
+        let mut crossings = BinaryHeap::from(crossings);
         let mut rate = direction.rate;
-        for (_, i, slowing) in crossings {
-            rate -= slowing;
+        while let Some(Crossing { draw: i, speed, .. }) = crossings.pop() {
+            rate -= game.level.risk() * game.level.held(game.scenarios.masses[i]) * speed;
             if rate <= 0.0 {
                 return Some(End::Draw(i));
             }
