@@ -146,6 +146,7 @@ class TabularWorld(IdlStruct, typename="apprentice_msgs::msg::dds_::TabularWorld
     features_of: uint8 = 0
     features: sequence[float64] = field(default_factory=list)
     shape: sequence[uint32, 2] = field(default_factory=list)
+    shape_of: uint8 = 0
 
 
 @dataclass
@@ -236,6 +237,7 @@ class PolicySet(IdlStruct, typename="apprentice_msgs::msg::dds_::PolicySet_"):
     id: str = ""
     number: uint64 = 0
     world_id: str = ""
+    chains_used: uint32 = 0
     policies: sequence[PolicyToJudge] = field(default_factory=list)
 
 

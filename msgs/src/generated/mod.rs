@@ -367,8 +367,8 @@ uint8 state
 string reason
 string query_id                  # the open question; empty when there is none
 uint32 questions_asked
-uint32 demonstrations            # active ones
-uint8 bound_outcome              # as in PlacementBound
+uint32 demonstrations            # active ones; about a world all pieces of evidence in force
+uint8 bound_outcome              # as in PlacementBound; about a world as in RiskBound
 float64 bound_m                  # NaN without one
 float64 epsilon_m
 float64 loss_bound               # about a world: bound on the normalised loss of the robot's policy; NaN without one

@@ -274,9 +274,9 @@ pub struct LessonStatus {
     pub query_id: std::string::String,
     /// (`uint32`)
     pub questions_asked: u32,
-    /// active ones (`uint32`)
+    /// active ones; about a world all pieces of evidence in force (`uint32`)
     pub demonstrations: u32,
-    /// as in PlacementBound (`uint8`)
+    /// as in PlacementBound; about a world as in RiskBound (`uint8`)
     pub bound_outcome: u8,
     /// NaN without one (`float64`)
     pub bound_m: f64,

@@ -1,11 +1,13 @@
 //! The node that asks: it proposes hypothetical tables, lets `performance_bounds` judge them, and asks about the one with
-//! the largest bound until even that is below ε.
+//! the largest bound until even that is below ε. In a lesson about a world it says whether the robot is taught.
 
 mod node;
 mod run;
 mod settings;
 mod words;
+mod world_lesson;
 
 pub use node::{ActiveQuery, Event, Output};
 pub use run::run;
 pub use settings::Settings;
+pub use world_lesson::world_lesson;

@@ -1,8 +1,11 @@
 //! The node as a state machine: posteriors and bounds in, candidates, questions and the lesson's state out.
 
-use crate::{Settings, words};
+use crate::{Settings, words, world_lesson};
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::msg::{Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior};
+use apprentice_msgs::msg::{
+    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, PolicyBounds, Posterior,
+};
+use apprentice_msgs::to_cdr;
 use exchange::{is_about_a_table, scene_from_message, scene_to_message};
 use inquiry::{Choice, Judged, candidates, choose};
 use scene::{Field, Grid, Rbf, Scene, best_placement};
@@ -18,6 +21,8 @@ pub enum Event {
     Posterior(Box<Posterior>),
     /// Bounds on the candidates.
     Bounds(Box<PerformanceBounds>),
+    /// Bounds on policies: in a lesson about a world, what is known of the robot's.
+    PolicyBounds(Box<PolicyBounds>),
     /// Time to send the newest outputs again.
     Republish,
 }
@@ -49,12 +54,14 @@ pub struct ActiveQuery {
     round: Option<Round>,
     query: Option<Box<PlacementQuery>>,
     lesson: Option<LessonStatus>,
+    /// The posterior of a lesson about a world, and the newest bounds on policies in it.
+    of_world: (Option<Box<Posterior>>, Option<Box<PolicyBounds>>),
 }
 
 impl ActiveQuery {
     /// A node that has seen nothing.
     pub fn new(settings: Settings) -> Self {
-        Self { settings, round: None, query: None, lesson: None }
+        Self { settings, round: None, query: None, lesson: None, of_world: (None, None) }
     }
 
     /// Takes one event. Outputs depend on the settings and the messages alone, never on `_now`.
@@ -62,6 +69,10 @@ impl ActiveQuery {
         match event {
             Event::Posterior(posterior) => self.posterior(*posterior),
             Event::Bounds(bounds) => self.bounds(&bounds),
+            Event::PolicyBounds(bounds) => {
+                self.of_world.1 = Some(bounds);
+                self.world()
+            }
             Event::Republish => self.republish(),
         }
     }
@@ -72,7 +83,8 @@ impl ActiveQuery {
         }
         // A lesson that is about no table asks nothing about any.
         if !is_about_a_table(&posterior) {
-            return Vec::new();
+            self.of_world.0 = Some(Box::new(posterior));
+            return self.world();
         }
         let base = match scene_from_message(&posterior.scene) {
             Ok(scene) => scene,
@@ -105,6 +117,18 @@ impl ActiveQuery {
         vec![Output::Candidates(candidates)]
     }
 
+    /// Where a lesson about a world stands, when that is news.
+    fn world(&mut self) -> Vec<Output> {
+        let (Some(posterior), Some(bounds)) = &self.of_world else { return Vec::new() };
+        let Some(lesson) = world_lesson(&self.settings, posterior, bounds) else { return Vec::new() };
+        let same = |known: &LessonStatus| to_cdr(known) == to_cdr(&lesson);
+        if self.lesson.as_ref().is_some_and(same) {
+            return Vec::new();
+        }
+        self.lesson = Some(lesson.clone());
+        vec![Output::Lesson(lesson)]
+    }
+
     fn bounds(&mut self, bounds: &PerformanceBounds) -> Vec<Output> {
         let Some(round) = &self.round else { return Vec::new() };
         if bounds.revision != round.posterior.revision || self.lesson.is_some() {
@@ -131,6 +155,8 @@ impl ActiveQuery {
             bound_outcome: bounds.outcome,
             bound_m: bounds.bound_m,
             epsilon_m,
+            loss_bound: f64::NAN,
+            epsilon_loss: f64::NAN,
         };
         let mut query = None;
         // Without a demonstration there is nothing the person has agreed to, whatever the prior says.

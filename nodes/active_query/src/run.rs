@@ -14,6 +14,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let lesson = bus.publisher::<LessonStatus>("lesson", Qos::State)?;
     bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
     bus.subscribe("bounds", Qos::State, |message| Event::Bounds(Box::new(message)))?;
+    bus.subscribe("policy_bounds", Qos::State, |message| Event::PolicyBounds(Box::new(message)))?;
     bus.every(Duration::from_secs_f64(settings.republish_period_s), || Event::Republish);
     let mut node = ActiveQuery::new(settings);
     while let Some((now, event)) = bus.next() {

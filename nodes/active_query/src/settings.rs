@@ -11,6 +11,8 @@ pub struct Settings {
     pub seed: i64,
     /// The lesson ends when the bound is below this, metres.
     pub epsilon_m: f64,
+    /// A lesson about a world ends when the bound on the normalised loss of the robot's policy is below this.
+    pub epsilon_loss: f64,
     /// Hypothetical tables a question is chosen from.
     pub n_candidates: i64,
     /// Questions after which the lesson is given up.
@@ -21,7 +23,14 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { seed: 1, epsilon_m: 0.10, n_candidates: 50, max_questions: 60, republish_period_s: 2.0 }
+        Self {
+            seed: 1,
+            epsilon_m: 0.10,
+            epsilon_loss: 0.10,
+            n_candidates: 50,
+            max_questions: 60,
+            republish_period_s: 2.0,
+        }
     }
 }
 
@@ -40,13 +49,19 @@ impl NodeSettings for Settings {
             range: Range::Float { min: 0.001, max: 10.0 },
         },
         ParameterSpec {
+            name: "epsilon_loss",
+            about: "a lesson about a world ends when the bound on what the robot's policy loses, as a share of what choosing at \
+                    random loses, is below this",
+            range: Range::Float { min: 0.001, max: 1.0 },
+        },
+        ParameterSpec {
             name: "n_candidates",
             about: "hypothetical tables a question is chosen from",
             range: Range::Integer { min: 1, max: 1000 },
         },
         ParameterSpec {
             name: "max_questions",
-            about: "questions after which the lesson is given up",
+            about: "questions, or pieces of evidence about a world, after which the lesson is given up",
             range: Range::Integer { min: 1, max: 10_000 },
         },
         ParameterSpec {

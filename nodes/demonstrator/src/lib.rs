@@ -1,4 +1,5 @@
-//! A simulated person with a hidden reward, who answers every question about where the target belongs.
+//! A simulated person with a hidden reward, who answers every question about where the target belongs, and in a world shows
+//! what to do and which of two ways is better.
 //!
 //! An answer is a function of the seed and the question's id alone, so a person who is killed and comes back says the
 //! same again under the same id, and counting once is the receiver's easy job.
@@ -8,6 +9,8 @@ mod node;
 mod person;
 mod run;
 mod settings;
+mod teacher;
+mod teaching;
 mod true_error;
 
 pub use identity::answer_id;
@@ -15,4 +18,5 @@ pub use node::{DemonstratorNode, Event, MAX_PENDING, Output};
 pub use person::{Answer, GRID_SIDE, Person, PersonError};
 pub use run::run;
 pub use settings::{Noise, Settings};
+pub use teacher::{Piece, Teacher};
 pub use true_error::true_error_m;

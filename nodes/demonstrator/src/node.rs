@@ -1,9 +1,13 @@
-//! The node as a pure state machine: questions in, answers out, each repeated until its receipt comes.
+//! The node as a pure state machine: questions and worlds in, answers and walks out, each repeated until its receipt comes.
 
-use crate::{Answer, Person, Settings, answer_id};
+use crate::teaching::Teaching;
+use crate::{Answer, Person, Piece, Settings, answer_id};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs;
-use apprentice_msgs::msg::{EvidenceReceipt, PlacementDemonstration, PlacementQuery, QueryResponse};
+use apprentice_msgs::msg::{
+    ActionDemonstration, EvidenceReceipt, LessonStatus, PlacementDemonstration, PlacementQuery, QueryResponse,
+    TabularWorld, TrajectoryPreference,
+};
 use apprentice_msgs::std_msgs::Header;
 
 /// Most answers waiting for a receipt; beyond it the oldest is dropped, which only its asker could have wanted.
@@ -16,6 +20,10 @@ pub enum Event {
     Query(Box<PlacementQuery>),
     /// What became of a piece of evidence, perhaps somebody else's.
     Receipt(EvidenceReceipt),
+    /// A world to teach in.
+    World(Box<TabularWorld>),
+    /// Where the lesson stands.
+    Lesson(Box<LessonStatus>),
     /// Time passed.
     Tick,
 }
@@ -27,6 +35,10 @@ pub enum Output {
     Demonstration(Box<PlacementDemonstration>),
     /// An answer that is not.
     Response(QueryResponse),
+    /// What to do in a world.
+    Actions(Box<ActionDemonstration>),
+    /// Which of two walks is better.
+    Preference(Box<TrajectoryPreference>),
     /// Something for the log.
     Warning(String),
 }
@@ -43,6 +55,7 @@ pub struct DemonstratorNode {
     /// Ids of the latest questions that were dealt with, oldest first.
     settled: Vec<String>,
     warned_features: bool,
+    teaching: Teaching,
 }
 
 #[derive(Debug)]
@@ -67,6 +80,7 @@ impl DemonstratorNode {
             pending: Vec::new(),
             settled: Vec::new(),
             warned_features: false,
+            teaching: Teaching::new(settings),
         }
     }
 
@@ -80,9 +94,15 @@ impl DemonstratorNode {
         let mut outputs = Vec::new();
         match event {
             Event::Query(query) => self.hear(&now, *query, &mut outputs),
-            Event::Receipt(receipt) => self.settle(receipt, &mut outputs),
+            Event::Receipt(receipt) => {
+                self.teaching.settle(now.nanoseconds(), &receipt);
+                self.settle(receipt, &mut outputs);
+            }
+            Event::World(world) => outputs.extend(self.teaching.world(&world).map(Output::Warning)),
+            Event::Lesson(lesson) => self.teaching.lesson(&lesson),
             Event::Tick => {}
         }
+        self.teach(&now, &mut outputs);
         self.send_due(now.nanoseconds(), &mut outputs);
         outputs
     }
@@ -113,6 +133,23 @@ impl DemonstratorNode {
                 outputs.push(Output::Warning(format!("cannot answer question '{}': {reason}", query.id)));
                 self.remember(query.id);
             }
+        }
+    }
+
+    /// Gives the next piece of evidence about a world, when its time has come.
+    fn teach(&mut self, now: &Time, outputs: &mut Vec<Output>) {
+        match self.teaching.next(now) {
+            Some(Ok(piece)) => {
+                let id = piece.id().to_owned();
+                let message = match piece {
+                    Piece::Show(message) => Output::Actions(message),
+                    Piece::Compare(message) => Output::Preference(message),
+                };
+                let due_ns = now.nanoseconds() + self.delay_ns;
+                self.pending.push(Pending { query_id: id.clone(), id, message, due_ns, sent: false });
+            }
+            Some(Err(text)) => outputs.push(Output::Warning(text)),
+            None => {}
         }
     }
 

@@ -1,7 +1,7 @@
 //! Wires the node to the graph.
 
 use crate::{DemonstratorNode, Event, Output, Settings};
-use apprentice_msgs::msg::PlacementDemonstration;
+use apprentice_msgs::msg::{ActionDemonstration, PlacementDemonstration, TrajectoryPreference};
 use bus::{Arguments, Bus, Graph, NodeError, Qos};
 use std::time::Duration;
 
@@ -17,8 +17,12 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let mut bus: Bus<Event> = Bus::open(graph, arguments, &settings)?;
     let demonstration = bus.publisher::<PlacementDemonstration>("demonstration", Qos::Event)?;
     let response = bus.publisher("response", Qos::Event)?;
+    let actions = bus.publisher::<ActionDemonstration>("action_demonstration", Qos::Event)?;
+    let preference = bus.publisher::<TrajectoryPreference>("preference", Qos::Event)?;
     bus.subscribe("receipt", Qos::Event, Event::Receipt)?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
+    bus.subscribe("world", Qos::State, |message| Event::World(Box::new(message)))?;
+    bus.subscribe("lesson", Qos::State, |message| Event::Lesson(Box::new(message)))?;
     bus.every(TICK, || Event::Tick);
     let mut node = DemonstratorNode::new(&settings);
     while let Some((now, event)) = bus.next() {
@@ -26,6 +30,8 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
             match output {
                 Output::Demonstration(message) => demonstration.publish(&*message)?,
                 Output::Response(message) => response.publish(&message)?,
+                Output::Actions(message) => actions.publish(&message)?,
+                Output::Preference(message) => preference.publish(&message)?,
                 Output::Warning(text) => log::warn!("{text}"),
             }
         }

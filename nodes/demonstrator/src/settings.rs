@@ -10,7 +10,7 @@ pub enum Noise {
     /// Always the best one.
     #[default]
     None,
-    /// A free grid cell with probability proportional to exp(β·R).
+    /// A free grid cell with probability proportional to exp(β·R); in a world an action to exp(β·Q), a walk to exp(β·return).
     Boltzmann,
 }
 
@@ -36,6 +36,14 @@ pub struct Settings {
     pub cant_tell_rate: f64,
     /// Share of answers that are "skip".
     pub skip_rate: f64,
+    /// Most walks the person shows in a world.
+    pub shows: i64,
+    /// Steps of each.
+    pub show_steps: i64,
+    /// Most pairs of walks the person compares in a world.
+    pub compares: i64,
+    /// Steps of each of the two.
+    pub compare_steps: i64,
     /// Time between seeing a question and answering it, seconds.
     pub response_delay_s: f64,
     /// An answer without a receipt is sent again after this time, seconds.
@@ -54,17 +62,24 @@ impl Default for Settings {
             mistake_rate: 0.0,
             cant_tell_rate: 0.0,
             skip_rate: 0.0,
+            shows: 0,
+            show_steps: 20,
+            compares: 0,
+            compare_steps: 20,
             response_delay_s: 0.0,
             republish_period_s: 1.0,
         }
     }
 }
 
+const PIECES: Range = Range::Integer { min: 0, max: 10_000 };
+const STEPS: Range = Range::Integer { min: 1, max: 10_000 };
 const RATE: Range = Range::Float { min: 0.0, max: 1.0 };
 
 impl NodeSettings for Settings {
     const NODE: &'static str = "demonstrator";
-    const ABOUT: &'static str = "A simulated person with a hidden reward, who answers every question.";
+    const ABOUT: &'static str =
+        "A simulated person with a hidden reward, who answers every question and shows what to do in a world.";
     const PARAMETERS: &'static [ParameterSpec] = &[
         ParameterSpec {
             name: "seed",
@@ -74,7 +89,7 @@ impl NodeSettings for Settings {
         ParameterSpec { name: "source", about: "who answers; part of every answer", range: Range::Any },
         ParameterSpec {
             name: "reward_names",
-            about: "features with a reward: object ids, or fixed centres such as 'table centre' or 'table near left'",
+            about: "features with a reward: object ids, fixed centres such as 'table centre', or features of a world",
             range: Range::Any,
         },
         ParameterSpec {
@@ -84,7 +99,7 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "noise",
-            about: "how a placement is chosen: always the best one, or proportional to exp(beta * reward)",
+            about: "how a placement, an action or a walk is chosen: always the best one, or proportional to exp(beta * reward)",
             range: Range::Choice(&["none", "boltzmann"]),
         },
         ParameterSpec {
@@ -92,12 +107,28 @@ impl NodeSettings for Settings {
             about: "rationality of the Boltzmann choice",
             range: Range::Float { min: 0.0, max: 1e6 },
         },
-        ParameterSpec { name: "mistake_rate", about: "share of answers that are any free place", range: RATE },
+        ParameterSpec {
+            name: "mistake_rate",
+            about: "share of answers that are any free place, any action, any order",
+            range: RATE,
+        },
         ParameterSpec { name: "cant_tell_rate", about: "share of answers that are 'can't tell'", range: RATE },
         ParameterSpec { name: "skip_rate", about: "share of answers that are 'skip'", range: RATE },
         ParameterSpec {
+            name: "shows",
+            about: "most walks the person shows in a world, one after another while the lesson goes on",
+            range: PIECES,
+        },
+        ParameterSpec { name: "show_steps", about: "steps of each walk", range: STEPS },
+        ParameterSpec {
+            name: "compares",
+            about: "most pairs of walks the person compares in a world; walks and pairs take turns",
+            range: PIECES,
+        },
+        ParameterSpec { name: "compare_steps", about: "steps of each walk of a pair", range: STEPS },
+        ParameterSpec {
             name: "response_delay_s",
-            about: "time between seeing a question and answering it, seconds",
+            about: "time between seeing a question, or being heard in a world, and the next answer, seconds",
             range: Range::Float { min: 0.0, max: 3600.0 },
         },
         ParameterSpec {

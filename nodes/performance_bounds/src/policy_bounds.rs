@@ -7,6 +7,7 @@ use apprentice_msgs::msg::{PolicyBound, PolicyBounds, PolicySet, Posterior, Risk
 use exchange::{Form, World, check_policies};
 use mdp::feature_counts;
 use risk::{ErrorBudget, RankedPolicy, Tail, rank_policies};
+use std::borrow::Cow;
 
 /// Bounds on every policy of a set. `world` is the one that the posterior names, if it names one.
 ///
@@ -20,6 +21,7 @@ pub fn judge_policies(
     set: &PolicySet,
     world: Option<&World>,
 ) -> Result<PolicyBounds, String> {
+    let posterior = &*judges(posterior, set.chains_used)?;
     let k = posterior.feature_names.len();
     let checked = check_policies(set, k, world).map_err(|error| error.to_string())?;
     let world = world.filter(|world| world.mdp.n_features() == k);
@@ -81,6 +83,27 @@ pub fn judge_policies(
         }
     }
     Ok(receipt(settings, posterior, set, world, delta, bounds))
+}
+
+/// The posterior with those draws alone that did not choose the policies: a policy looks better to the draws it was chosen
+/// by, and a bound of these would not hold.
+fn judges(posterior: &Posterior, chains_used: u32) -> Result<Cow<'_, Posterior>, String> {
+    if chains_used == 0 {
+        return Ok(Cow::Borrowed(posterior));
+    }
+    let (n_chains, k) = (posterior.n_chains, posterior.feature_names.len());
+    let left = n_chains.checked_sub(chains_used).filter(|left| *left > 0);
+    let n_left = left.ok_or_else(|| {
+        format!("its policies were chosen by {chains_used} chains, and the posterior has {n_chains}: none is left to judge them")
+    })?;
+    let per_chain = posterior.n_draws / n_chains;
+    let skipped = per_chain as usize * chains_used as usize * k;
+    Ok(Cow::Owned(Posterior {
+        n_chains: n_left,
+        n_draws: per_chain * n_left,
+        draws: posterior.draws[skipped..].to_vec(),
+        ..posterior.clone()
+    }))
 }
 
 /// What one policy collects, and its return under every draw.

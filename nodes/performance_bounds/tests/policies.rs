@@ -365,3 +365,28 @@ fn what_cannot_be_judged_is_told_once_and_survived() {
     let good = node.step(Time::default(), Event::Policies(Box::new(set(10, &[always("a", 1)]))));
     assert!(matches!(good.as_slice(), [Output::PolicyBounds(_)]), "{good:?}");
 }
+
+#[test]
+fn policies_are_judged_by_draws_that_did_not_choose_them() {
+    let posterior = posterior(4000, RIGHT);
+    let chosen = |chains_used: u32| PolicySet { chains_used, ..set(2, &[always("right", 1), always("left", 0)]) };
+    let half = bounds_of(&Settings::default(), &posterior, &chosen(2));
+    assert_eq!((half.n, half.n_chains), (2000, 2));
+    // The same as if the other chains were all there is.
+    let k = posterior.feature_names.len();
+    let rest =
+        Posterior { n_chains: 2, n_draws: 2000, draws: posterior.draws[2000 * k..].to_vec(), ..posterior.clone() };
+    let alone = bounds_of(&Settings::default(), &rest, &chosen(0));
+    assert_eq!(to_cdr(&half), to_cdr(&alone));
+    let all = bounds_of(&Settings::default(), &posterior, &chosen(0));
+    assert_ne!(half.policies[0].return_bound.mean.to_bits(), all.policies[0].return_bound.mean.to_bits());
+    let events = vec![
+        Event::World(Box::new(message())),
+        Event::Posterior(Box::new(posterior.clone())),
+        Event::Policies(Box::new(chosen(4))),
+    ];
+    match outputs(&Settings::default(), events).as_slice() {
+        [Output::Warn(text)] => assert!(text.contains("none is left to judge them"), "{text}"),
+        other => panic!("a warning was expected, got {other:?}"),
+    }
+}

@@ -4,6 +4,7 @@ mod evidence;
 mod policies;
 mod posterior;
 mod record;
+mod robust_policy;
 mod table;
 mod text;
 mod world;
@@ -15,9 +16,13 @@ pub use evidence::{
 pub use policies::{Checked, Form, MAX_POLICIES, PolicyError, check_policies};
 pub use posterior::{PosteriorError, check_posterior, is_about_a_table, is_about_scene};
 pub use record::{record_header, record_id};
+pub use robust_policy::{
+    PreferenceError, ROBUST_POLICY, RobustPolicyError, check_preference_of_risk, check_robust_policy,
+    demonstrations_in_force, robust_set_id,
+};
 pub use table::{ExchangeError, point_from_message, point_to_message, scene_from_message, scene_to_message};
 pub use text::{MAX_ID, TextError};
-pub use world::{World, WorldError, world_from_message, world_hash};
+pub use world::{Picture, World, WorldError, world_from_message, world_hash, world_to_message};
 
 /// More weights than this are refused.
 pub const MAX_WEIGHTS: usize = 1024;

@@ -24,6 +24,29 @@ pub struct World {
     pub feature_names: Vec<String>,
     /// The process.
     pub mdp: Mdp,
+    /// How to picture its states.
+    pub picture: Picture,
+}
+
+/// How to picture the states of a world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Picture {
+    /// Not at all.
+    None,
+    /// As the cells of a grid, row by row.
+    Cells {
+        /// Rows.
+        rows: usize,
+        /// Columns.
+        columns: usize,
+    },
+    /// As a car on a road with other traffic: see TabularWorld.
+    Road {
+        /// Lanes, the outer two off the road.
+        lanes: usize,
+        /// Places of the traffic.
+        places: usize,
+    },
 }
 
 /// Why a world cannot be used.
@@ -87,6 +110,25 @@ pub enum WorldError {
         /// Got.
         got: usize,
     },
+    /// Only the numbered kinds of shapes are known.
+    #[error("its shape is of kind {got}; 0 (rows and columns) and 1 (lanes and places of traffic) are known")]
+    ShapeKind {
+        /// Got.
+        got: u8,
+    },
+    /// A road with another number of states.
+    #[error(
+        "a road of {lanes} lanes and {places} places of traffic has lanes (lanes - 2) places states, at least 3 lanes and 1 \
+         place; it has {got} states"
+    )]
+    Road {
+        /// Got.
+        lanes: u32,
+        /// Got.
+        places: u32,
+        /// States.
+        got: u32,
+    },
     /// It is no decision process.
     #[error(transparent)]
     Process(#[from] MdpError),
@@ -129,10 +171,10 @@ pub fn world_from_message(message: &TabularWorld) -> Result<World, WorldError> {
         TabularWorld::STATE_ACTION_FEATURES => Features::StateAction(message.features.clone()),
         got => return Err(WorldError::FeatureKind { got }),
     };
-    let shape = match message.shape.as_slice() {
-        [] => None,
-        [rows, columns] => Some([*rows as usize, *columns as usize]),
-        other => return Err(WorldError::Shape { got: other.len() }),
+    let picture = picture(message)?;
+    let shape = match picture {
+        Picture::Cells { rows, columns } => Some([rows, columns]),
+        Picture::None | Picture::Road { .. } => None,
     };
     let transitions = message.from_state.iter().zip(&message.action).zip(&message.to_state).zip(&message.probability);
     let mdp = Mdp::new(MdpParts {
@@ -147,7 +189,67 @@ pub fn world_from_message(message: &TabularWorld) -> Result<World, WorldError> {
         shape,
     })?;
     let hash = world_hash(message);
-    Ok(World { id: message.id.clone(), hash, feature_names: message.feature_names.clone(), mdp })
+    Ok(World { id: message.id.clone(), hash, feature_names: message.feature_names.clone(), mdp, picture })
+}
+
+/// How its states are to be pictured. Rows and columns are compared with the states where the process is checked.
+fn picture(message: &TabularWorld) -> Result<Picture, WorldError> {
+    match (message.shape.as_slice(), message.shape_of) {
+        ([], _) => Ok(Picture::None),
+        ([rows, columns], TabularWorld::CELLS) => {
+            Ok(Picture::Cells { rows: *rows as usize, columns: *columns as usize })
+        }
+        (&[lanes, places], TabularWorld::ROAD) => {
+            let got = message.n_states;
+            let n_states = lanes.checked_mul(lanes.saturating_sub(2)).and_then(|n| n.checked_mul(places));
+            if n_states == Some(got) && got > 0 {
+                Ok(Picture::Road { lanes: lanes as usize, places: places as usize })
+            } else {
+                Err(WorldError::Road { lanes, places, got })
+            }
+        }
+        ([_, _], got) => Err(WorldError::ShapeKind { got }),
+        (other, _) => Err(WorldError::Shape { got: other.len() }),
+    }
+}
+
+/// The message of a process.
+pub fn world_to_message(id: &str, feature_names: &[String], mdp: &Mdp, picture: Picture) -> TabularWorld {
+    let parts = mdp.parts();
+    let column =
+        |pick: fn(&(usize, usize, usize, f64)) -> usize| parts.transitions.iter().map(pick).map(number).collect();
+    let (features_of, features) = match parts.features {
+        Features::State(features) => (TabularWorld::STATE_FEATURES, features),
+        Features::StateAction(features) => (TabularWorld::STATE_ACTION_FEATURES, features),
+    };
+    let (shape, shape_of) = match picture {
+        Picture::None => (Vec::new(), TabularWorld::CELLS),
+        Picture::Cells { rows, columns } => (vec![number(rows), number(columns)], TabularWorld::CELLS),
+        Picture::Road { lanes, places } => (vec![number(lanes), number(places)], TabularWorld::ROAD),
+    };
+    TabularWorld {
+        header: Header::default(),
+        id: id.to_owned(),
+        gamma: parts.gamma,
+        n_states: number(parts.n_states),
+        n_actions: number(parts.n_actions),
+        feature_names: feature_names.to_vec(),
+        action_names: parts.actions,
+        initial: parts.initial,
+        from_state: column(|t| t.0),
+        action: column(|t| t.1),
+        to_state: column(|t| t.2),
+        probability: parts.transitions.iter().map(|t| t.3).collect(),
+        features_of,
+        features,
+        shape,
+        shape_of,
+    }
+}
+
+/// A process is checked to be small, so that its numbers fit.
+fn number(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
 }
 
 fn check_names(message: &TabularWorld) -> Result<(), WorldError> {
