@@ -1,6 +1,8 @@
 //! The joints that move one link, the tool.
 
-use crate::{Drive, JointKind, Robot};
+use crate::levers::stroke;
+use crate::{Drive, JacobianColumn, JointKind, Robot, rotation};
+use nalgebra::{Isometry3, Unit, Vector3};
 use thiserror::Error;
 
 /// Longest chain of driven joints.
@@ -13,12 +15,47 @@ pub struct Chain {
     pub tool: usize,
     /// Entries of the configuration that move the tool, from the root outwards, each once.
     pub entries: Vec<usize>,
-    /// Joints that move on the way from the root to the tool: (joint, position in `entries`, factor on its speed).
-    pub(crate) moves: Vec<(usize, usize, f64)>,
     /// For each entry, how far the tool's origin moves at most, metres per radian or per metre.
     pub levers: Vec<f64>,
+    /// The joints that move on the way from the root to the tool.
+    segments: Vec<Segment>,
+    /// From the last of them to the tool.
+    last_from_tool: Isometry3<f64>,
     /// The tool's origin is never farther from the first moving joint than this, metres.
     pub(crate) reach: f64,
+}
+
+/// A moving joint and what is fixed before it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Segment {
+    /// Index of the joint.
+    joint: usize,
+    /// From the frame after the moving joint before it (or the root) to its own at position 0.
+    before: Isometry3<f64>,
+    axis: Unit<Vector3<f64>>,
+    slides: bool,
+    /// Entry of the configuration, and its place in the chain's.
+    entry: usize,
+    place: usize,
+    /// Position = factor · entry + offset.
+    factor: f64,
+    offset: f64,
+}
+
+impl Segment {
+    /// What its motion adds to `before`.
+    fn motion(&self, q: &[f64]) -> Isometry3<f64> {
+        let position = self.factor * q[self.entry] + self.offset;
+        if self.slides {
+            Isometry3::translation(
+                self.axis.x * position,
+                self.axis.y * position,
+                self.axis.z * position,
+            )
+        } else {
+            Isometry3::from_parts(nalgebra::Translation3::identity(), rotation::about_axis(&self.axis, position))
+        }
+    }
 }
 
 /// Why a link cannot be a tool.
@@ -63,44 +100,44 @@ impl Chain {
         }
         path.reverse();
         let mut entries: Vec<usize> = Vec::new();
-        let mut moves = Vec::new();
+        let mut segments: Vec<Segment> = Vec::new();
         let mut reach = 0.0;
         let mut reach_before = Vec::new();
+        let mut fixed = Isometry3::identity();
         for j in path {
             let joint = &robot.joints[j];
-            let (entry, factor) = match joint.drive {
-                Drive::Fixed => {
-                    reach += if moves.is_empty() { 0.0 } else { joint.parent_from_joint.translation.vector.norm() };
-                    continue;
-                }
-                Drive::Position(entry) => (entry, 1.0),
-                Drive::Mimic { leader, multiplier, .. } => (leader, multiplier),
-            };
-            if !moves.is_empty() {
+            fixed *= joint.parent_from_joint;
+            if !segments.is_empty() {
                 reach += joint.parent_from_joint.translation.vector.norm();
             }
-            if joint.kind == JointKind::Prismatic {
+            let (entry, factor, offset) = match joint.drive {
+                Drive::Fixed => continue,
+                Drive::Position(entry) => (entry, 1.0, 0.0),
+                Drive::Mimic { leader, multiplier, offset } => (leader, multiplier, offset),
+            };
+            let slides = joint.kind == JointKind::Prismatic;
+            if slides {
                 reach += stroke(robot, j);
             }
             let place = entries.iter().position(|&e| e == entry).unwrap_or_else(|| {
                 entries.push(entry);
                 entries.len() - 1
             });
-            moves.push((j, place, factor));
+            segments.push(Segment { joint: j, before: fixed, axis: joint.axis, slides, entry, place, factor, offset });
+            fixed = Isometry3::identity();
             reach_before.push(reach);
         }
-        if moves.is_empty() {
+        if segments.is_empty() {
             return Err(ChainError::Rigid { name: tool.into() });
         }
         if entries.len() > MAX_CHAIN_JOINTS {
             return Err(ChainError::TooLong { name: tool.into(), got: entries.len() });
         }
         let mut levers = vec![0.0; entries.len()];
-        for (&(j, place, factor), before) in moves.iter().zip(&reach_before) {
-            let slides = robot.joints[j].kind == JointKind::Prismatic;
-            levers[place] += factor.abs() * if slides { 1.0 } else { reach - before };
+        for (segment, before) in segments.iter().zip(&reach_before) {
+            levers[segment.place] += segment.factor.abs() * if segment.slides { 1.0 } else { reach - before };
         }
-        Ok(Self { tool: link, entries, levers, moves, reach })
+        Ok(Self { tool: link, entries, levers, segments, last_from_tool: fixed, reach })
     }
 
     /// Names of its joints.
@@ -110,7 +147,7 @@ impl Chain {
 
     /// Which links the chain's last joint carries: the wrist, the gripper and the tool. One entry per link.
     pub fn hand(&self, robot: &Robot) -> Vec<bool> {
-        let &(last, ..) = self.moves.last().expect("a chain has a moving joint");
+        let last = self.segments.last().expect("a chain has a moving joint").joint;
         let mut carried = vec![false; robot.links.len()];
         carried[robot.joints[last].child] = true;
         for joint in &robot.joints {
@@ -118,19 +155,46 @@ impl Chain {
         }
         carried
     }
-}
 
-/// The farthest a prismatic joint takes its child from where it is at 0, metres.
-fn stroke(robot: &Robot, joint: usize) -> f64 {
-    let joint = &robot.joints[joint];
-    let far = |entry: usize, multiplier: f64, offset: f64| {
-        let limits = robot.driven_joint(entry).limits;
-        (multiplier * limits.lower + offset).abs().max((multiplier * limits.upper + offset).abs())
-    };
-    match joint.drive {
-        Drive::Fixed => 0.0,
-        Drive::Position(entry) => far(entry, 1.0, 0.0),
-        Drive::Mimic { leader, multiplier, offset } => far(leader, multiplier, offset),
+    /// root_from_tool, from a configuration of the whole robot.
+    pub fn tool_pose(&self, q: &[f64]) -> Isometry3<f64> {
+        let moved = self.segments.iter().fold(Isometry3::identity(), |pose, s| pose * s.before * s.motion(q));
+        moved * self.last_from_tool
+    }
+
+    /// The origin of its first moving joint in the root frame: nothing moves it.
+    pub fn base(&self) -> Vector3<f64> {
+        self.segments.first().map_or_else(Vector3::zeros, |segment| segment.before.translation.vector)
+    }
+
+    /// root_from_tool and the geometric Jacobian of the tool, one column per entry of the chain. Joints that mimic add to the
+    /// column of their leader.
+    pub fn linearise(&self, q: &[f64], columns: &mut Vec<JacobianColumn>) -> Isometry3<f64> {
+        let mut axes = [(Vector3::zeros(), Vector3::zeros()); 2 * MAX_CHAIN_JOINTS];
+        let mut more = Vec::new();
+        let mut pose = Isometry3::identity();
+        for (i, segment) in self.segments.iter().enumerate() {
+            pose = pose * segment.before * segment.motion(q);
+            // The motion leaves its own axis and origin where they are, so the moved frame will do for revolute joints.
+            let axis = (pose.rotation * (segment.axis.into_inner() * segment.factor), pose.translation.vector);
+            match axes.get_mut(i) {
+                Some(room) => *room = axis,
+                None => more.push(axis),
+            }
+        }
+        pose *= self.last_from_tool;
+        columns.clear();
+        columns.resize(self.entries.len(), JacobianColumn::default());
+        for (segment, (axis, origin)) in self.segments.iter().zip(axes.iter().chain(&more)) {
+            let column = &mut columns[segment.place];
+            if segment.slides {
+                column.linear += axis;
+            } else {
+                column.linear += axis.cross(&(pose.translation.vector - origin));
+                column.angular += axis;
+            }
+        }
+        pose
     }
 }
 

@@ -101,7 +101,7 @@ pub enum UrdfError {
         expected: Box<str>,
     },
     /// A type that URDF does not have.
-    #[error("line {line}: joint '{joint}' has the type '{got}'; expected revolute, continuous, prismatic or fixed")]
+    #[error("line {line}: joint '{joint}' has the type '{got}'; expected revolute, continuous, prismatic, fixed, floating or planar")]
     JointType {
         /// Where.
         line: usize,
@@ -122,18 +122,20 @@ pub enum UrdfError {
         /// Got.
         got: f64,
     },
-    /// Collision meshes come with a later release.
+    /// A collision mesh that cannot be had, or is none.
     #[error(
-        "line {line}: link '{link}' has a collision mesh, not supported yet in this release: {file}; \
-         use boxes, cylinders and spheres in <collision>"
+        "line {line}: the collision mesh of link '{link}' cannot be used: {file}: {problem}; \
+         give it, or accept a bounding shape in its place"
     )]
     Mesh {
-        /// Where the link starts.
+        /// Where the collision element starts.
         line: usize,
         /// Name.
-        link: String,
+        link: Box<str>,
         /// The mesh.
-        file: String,
+        file: Box<str>,
+        /// Why not.
+        problem: Box<str>,
     },
     /// Names must be unique.
     #[error("line {line}: the {what} name '{name}' is used twice (first on line {first}); rename one of them")]
@@ -213,8 +215,8 @@ pub enum UrdfError {
         /// Got.
         upper: f64,
     },
-    /// The joint could never move.
-    #[error("line {line}: joint '{joint}' has the velocity limit {got}; it must lie above 0")]
+    /// A speed has no sign.
+    #[error("line {line}: joint '{joint}' has the velocity limit {got}; it must not lie below 0")]
     Velocity {
         /// Where the joint starts.
         line: usize,
@@ -247,4 +249,13 @@ pub enum UrdfError {
         /// The parser's words.
         problem: String,
     },
+}
+
+impl UrdfError {
+    /// Where it is wrong, from 1; 0 when no line is to blame.
+    pub fn line(&self) -> usize {
+        let message = self.to_string();
+        let digits = message.strip_prefix("line ").and_then(|rest| rest.split_once(':'));
+        digits.and_then(|(digits, _)| digits.parse().ok()).unwrap_or(0)
+    }
 }

@@ -1,21 +1,14 @@
-//! Inverse kinematics of a position and a direction of the tool's z axis, the turn about it left free.
+//! Inverse kinematics: a configuration that brings the tool to a goal.
 //!
 //! Damped least squares (Wampler 1986) in the Levenberg–Marquardt form: the damping falls with the error, a step that does
-//! not help is taken back. Joints at a limit that want to leave it are held.
+//! not help is taken back. Joints at a limit that want to leave it are held. From where that leads nowhere, random starts go on.
 
-use crate::{Chain, JacobianColumn, Robot, jacobian};
-use nalgebra::{Isometry3, SMatrix, SVector, Unit, Vector3};
+use crate::goal::{LEVER, Miss, Target};
+use crate::jacobian::PerJoint;
+use crate::{Chain, Goal, JacobianColumn, Robot};
+use nalgebra::{Cholesky, Const, Matrix6, Vector6};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-
-/// Where the tool is to be, in the root frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AxisGoal {
-    /// Of the tool's origin, metres.
-    pub position: Vector3<f64>,
-    /// Where the tool's z axis is to point.
-    pub direction: Unit<Vector3<f64>>,
-}
 
 /// How hard to try.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +19,7 @@ pub struct IkSettings {
     pub iterations: usize,
     /// Accepted error of the position, metres.
     pub position_tolerance: f64,
-    /// Accepted error of the direction, radians.
+    /// Accepted error of the direction or rotation, radians.
     pub direction_tolerance: f64,
     /// Of the random starts.
     pub seed: u64,
@@ -59,45 +52,44 @@ pub enum IkOutcome {
     },
 }
 
-/// Errors of the direction count as if the tool were a lever of this length, metres.
-const LEVER: f64 = 0.3;
 /// No joint moves farther in one step, radians or metres.
 const LARGEST_STEP: f64 = 0.6;
+/// Two solutions differ in some joint by more than this, radians or metres.
+const DISTINCT: f64 = 1e-3;
+/// Steps towards a posture.
+const POSTURE_STEPS: usize = 60;
 
 /// Finds a configuration for a goal, near `start` if one is there: entries that do not move the tool stay as in `start`,
 /// and further starts are drawn from the settings' seed. `accept` may refuse a solution (a collision, say).
 pub fn solve(
     robot: &Robot,
     chain: &Chain,
-    goal: &AxisGoal,
+    goal: &Goal,
     start: &[f64],
     settings: &IkSettings,
     mut accept: impl FnMut(&[f64]) -> bool,
 ) -> IkOutcome {
-    let mut work = Work::default();
+    let mut search = Search::new(robot, chain, goal, settings);
     let mut q = start.to_vec();
-    clamp(robot, chain, &mut q);
-    robot.link_poses(&q, &mut work.poses);
-    let &(first, ..) = chain.moves.first().expect("a chain has a moving joint");
-    let joint = &robot.joints[first];
-    let base = (work.poses[joint.parent] * joint.parent_from_joint).translation.vector;
-    let distance = (goal.position - base).norm();
-    if distance > chain.reach + settings.position_tolerance {
+    search.clamp(&mut q);
+    let distance = (search.target.position() - chain.base()).norm();
+    // A number that is none is out of every reach.
+    if !(distance <= chain.reach + settings.position_tolerance) {
         return IkOutcome::OutOfReach { distance, reach: chain.reach };
     }
     let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
     let mut best = (f64::INFINITY, f64::INFINITY);
     for attempt in 0..=settings.restarts {
         if attempt > 0 {
-            scatter(robot, chain, &mut q, &mut rng);
+            search.scatter(&mut q, &mut rng);
         }
-        let (position, direction) = descend(robot, chain, goal, &mut q, settings, &mut work);
-        if position <= settings.position_tolerance && direction <= settings.direction_tolerance {
+        let miss = search.descend(&mut q);
+        if search.is_met(&miss) {
             if accept(&q) {
                 return IkOutcome::Solved(q);
             }
-        } else if position + LEVER * direction < best.0 + LEVER * best.1 {
-            best = (position, direction);
+        } else if miss.position + LEVER * miss.angle < best.0 + LEVER * best.1 {
+            best = (miss.position, miss.angle);
         }
     }
     if best.0.is_infinite() {
@@ -106,137 +98,188 @@ pub fn solve(
     IkOutcome::NotFound { position_error: best.0, direction_error: best.1 }
 }
 
-#[derive(Default)]
-struct Work {
-    poses: Vec<Isometry3<f64>>,
+/// Distinct configurations for a goal, the first from `start`, all that the settings' random starts find but no more than
+/// `most`. An arm of six joints has up to sixteen; one of more joints has families of them, from which these are samples.
+pub fn solutions(
+    robot: &Robot,
+    chain: &Chain,
+    goal: &Goal,
+    start: &[f64],
+    settings: &IkSettings,
+    most: usize,
+) -> Vec<Vec<f64>> {
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    if most > 0 {
+        let _ = solve(robot, chain, goal, start, settings, |q| {
+            let differs = |known: &Vec<f64>| known.iter().zip(q).any(|(a, b)| (a - b).abs() > DISTINCT);
+            if found.iter().all(differs) {
+                found.push(q.to_vec());
+            }
+            found.len() == most
+        });
+    }
+    found
+}
+
+/// Moves a solution towards a posture as far as the goal allows: the part of the way there that does not move the tool, then back
+/// onto the goal, until that brings no gain (the null-space projection of Liégeois 1977). `q` stays a solution within limits; the
+/// sum of squared distances to the posture over the chain's joints is returned.
+pub fn approach_posture(
+    robot: &Robot,
+    chain: &Chain,
+    goal: &Goal,
+    q: &mut Vec<f64>,
+    posture: &[f64],
+    settings: &IkSettings,
+) -> f64 {
+    let mut search = Search::new(robot, chain, goal, settings);
+    let off = |q: &[f64]| chain.entries.iter().map(|&e| (q[e] - posture[e]) * (q[e] - posture[e])).sum::<f64>();
+    let mut least = off(q);
+    let mut share = 1.0;
+    for _ in 0..POSTURE_STEPS {
+        let mut trial = q.clone();
+        search.step_in_null_space(&mut trial, posture, share);
+        let miss = search.descend(&mut trial);
+        let gained = off(&trial);
+        if search.is_met(&miss) && gained < least {
+            let slow = gained > 0.999 * least - 1e-12;
+            (*q, least) = (trial, gained);
+            if slow {
+                break;
+            }
+        } else {
+            share *= 0.5;
+            if share < 1e-2 {
+                break;
+            }
+        }
+    }
+    least
+}
+
+/// One search and its room to work in.
+struct Search<'a> {
+    robot: &'a Robot,
+    chain: &'a Chain,
+    target: Target,
+    settings: &'a IkSettings,
     columns: Vec<JacobianColumn>,
+    rows: Vec<Vector6<f64>>,
     trial: Vec<f64>,
 }
 
-type Error5 = SVector<f64, 5>;
-
-/// Steps from `q` until the goal is met or nothing helps; returns the errors of position and direction.
-fn descend(
-    robot: &Robot,
-    chain: &Chain,
-    goal: &AxisGoal,
-    q: &mut Vec<f64>,
-    settings: &IkSettings,
-    work: &mut Work,
-) -> (f64, f64) {
-    let across = across(&goal.direction);
-    robot.link_poses(q, &mut work.poses);
-    let (mut error, mut angle) = error_of(goal, &across, &work.poses[chain.tool]);
-    let mut damping = 1e-3;
-    let mut slow = 0;
-    for _ in 0..settings.iterations {
-        let position = error.fixed_rows::<3>(0).norm();
-        if position <= 0.1 * settings.position_tolerance && angle <= 0.1 * settings.direction_tolerance {
-            break;
-        }
-        jacobian(robot, chain, &work.poses, &mut work.columns);
-        step(robot, chain, &work.columns, &across, &error, damping, q, &mut work.trial);
-        robot.link_poses(&work.trial, &mut work.poses);
-        let (next, next_angle) = error_of(goal, &across, &work.poses[chain.tool]);
-        let gain = next.norm() / error.norm();
-        if gain < 1.0 {
-            std::mem::swap(q, &mut work.trial);
-            (error, angle) = (next, next_angle);
-            damping = (0.2 * damping).max(1e-12);
-        } else {
-            robot.link_poses(q, &mut work.poses);
-            damping *= 10.0;
-        }
-        slow = if gain > 0.98 { slow + 1 } else { 0 };
-        if slow > 8 || damping > 1e6 {
-            break;
-        }
+impl<'a> Search<'a> {
+    fn new(robot: &'a Robot, chain: &'a Chain, goal: &Goal, settings: &'a IkSettings) -> Self {
+        let target = Target::new(goal);
+        Self { robot, chain, target, settings, columns: Vec::new(), rows: Vec::new(), trial: Vec::new() }
     }
-    (error.fixed_rows::<3>(0).norm(), angle)
-}
 
-/// Two unit vectors that span the plane across a direction.
-fn across(direction: &Unit<Vector3<f64>>) -> [Vector3<f64>; 2] {
-    let aside = if direction.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
-    let first = direction.cross(&aside).normalize();
-    [first, direction.cross(&first)]
-}
+    fn is_met(&self, miss: &Miss) -> bool {
+        miss.position <= self.settings.position_tolerance && miss.angle <= self.settings.direction_tolerance
+    }
 
-/// What is missing, as three of position and two of direction (weighted by the lever), and the angle of direction.
-fn error_of(goal: &AxisGoal, across: &[Vector3<f64>; 2], tool: &Isometry3<f64>) -> (Error5, f64) {
-    let position = goal.position - tool.translation.vector;
-    let z = tool.rotation * Vector3::z();
-    let turn = z.cross(&goal.direction);
-    let angle = libm::atan2(turn.norm(), z.dot(&goal.direction));
-    // The turn that is needed lies across the goal's direction; pointing the other way, any will do.
-    let turn = match turn.norm() {
-        norm if norm > 1e-12 => turn * (angle / norm),
-        _ => across[0] * angle,
-    };
-    let [u, v] = [turn.dot(&across[0]) * LEVER, turn.dot(&across[1]) * LEVER];
-    (Error5::from([position.x, position.y, position.z, u, v]), angle)
-}
-
-/// dq = Jᵀ (J Jᵀ + λ I)⁻¹ e over the joints that are free to move, clamped to limits, into `trial`.
-#[expect(clippy::too_many_arguments, reason = "the parts of one formula")]
-fn step(
-    robot: &Robot,
-    chain: &Chain,
-    columns: &[JacobianColumn],
-    across: &[Vector3<f64>; 2],
-    error: &Error5,
-    damping: f64,
-    q: &[f64],
-    trial: &mut Vec<f64>,
-) {
-    let row = |c: &JacobianColumn| {
-        let [u, v] = [c.angular.dot(&across[0]) * LEVER, c.angular.dot(&across[1]) * LEVER];
-        Error5::from([c.linear.x, c.linear.y, c.linear.z, u, v])
-    };
-    let rows: Vec<Error5> = columns.iter().map(row).collect();
-    let mut held = [false; crate::MAX_CHAIN_JOINTS];
-    for _ in 0..=rows.len() {
-        let mut normal = SMatrix::<f64, 5, 5>::identity() * damping;
-        for (c, _) in rows.iter().zip(&held).filter(|(_, held)| !**held) {
-            normal += c * c.transpose();
-        }
-        let Some(factor) = normal.cholesky() else { break };
-        let pull = factor.solve(error);
-        let largest = rows.iter().zip(&held).filter(|(_, held)| !**held).map(|(c, _)| c.dot(&pull).abs());
-        let scale = LARGEST_STEP / largest.fold(LARGEST_STEP, f64::max);
-        trial.clear();
-        trial.extend_from_slice(q);
-        let mut again = false;
-        for (i, &entry) in chain.entries.iter().enumerate() {
-            if held[i] {
-                continue;
+    /// Steps from `q` until the goal is met or nothing helps; what is still missing then.
+    fn descend(&mut self, q: &mut Vec<f64>) -> Miss {
+        let mut miss = self.linearise(q);
+        let mut damping = 1e-3;
+        let mut slow = 0;
+        for _ in 0..self.settings.iterations {
+            let IkSettings { position_tolerance, direction_tolerance, .. } = self.settings;
+            if miss.position <= 0.1 * position_tolerance && miss.angle <= 0.1 * direction_tolerance {
+                break;
             }
-            let limits = &robot.driven_joint(entry).limits;
-            let wanted = q[entry] + rows[i].dot(&pull) * scale;
-            trial[entry] = wanted.clamp(limits.lower, limits.upper);
-            if trial[entry] == q[entry] && wanted != q[entry] {
-                held[i] = true;
-                again = true;
+            self.step(&miss.rows, damping, q);
+            let next = self.target.miss(&self.chain.tool_pose(&self.trial));
+            let gain = next.rows.norm() / miss.rows.norm();
+            if gain < 1.0 {
+                std::mem::swap(q, &mut self.trial);
+                miss = self.linearise(q);
+                damping = (0.2 * damping).max(1e-12);
+            } else {
+                damping *= 10.0;
+            }
+            slow = if gain > 0.98 { slow + 1 } else { 0 };
+            if slow > 8 || !(damping <= 1e6) {
+                break;
             }
         }
-        if !again {
-            return;
+        miss
+    }
+
+    fn linearise(&mut self, q: &[f64]) -> Miss {
+        let pose = self.chain.linearise(q, &mut self.columns);
+        self.rows.clear();
+        self.rows.extend(self.columns.iter().map(|column| self.target.row(column)));
+        self.target.miss(&pose)
+    }
+
+    /// J Jᵀ + λ I over the joints that are not held, factored.
+    fn factor(&self, damping: f64, held: &[bool]) -> Option<Cholesky<f64, Const<6>>> {
+        let mut normal = Matrix6::identity() * damping;
+        for (row, _) in self.rows.iter().zip(held).filter(|(_, held)| !**held) {
+            normal.ger(1.0, row, row, 1.0);
+        }
+        normal.cholesky()
+    }
+
+    /// dq = Jᵀ (J Jᵀ + λ I)⁻¹ e over the joints that are free to move, clamped to limits, into `trial`.
+    fn step(&mut self, error: &Vector6<f64>, damping: f64, q: &[f64]) {
+        let mut held = [false; crate::MAX_CHAIN_JOINTS];
+        for _ in 0..=self.rows.len() {
+            self.trial.clear();
+            self.trial.extend_from_slice(q);
+            let Some(factor) = self.factor(damping, &held) else { return };
+            let pull = factor.solve(error);
+            let wanted: PerJoint = std::array::from_fn(|i| match self.rows.get(i) {
+                Some(row) if !held[i] => row.dot(&pull),
+                _ => 0.0,
+            });
+            let scale = LARGEST_STEP / wanted.iter().fold(LARGEST_STEP, |largest, step| largest.max(step.abs()));
+            let mut again = false;
+            for (i, &entry) in self.chain.entries.iter().enumerate() {
+                let limits = &self.robot.driven_joint(entry).limits;
+                let to = q[entry] + wanted[i] * scale;
+                self.trial[entry] = to.clamp(limits.lower, limits.upper);
+                if !held[i] && self.trial[entry] == q[entry] && to != q[entry] {
+                    held[i] = true;
+                    again = true;
+                }
+            }
+            if !again {
+                return;
+            }
         }
     }
-}
 
-fn clamp(robot: &Robot, chain: &Chain, q: &mut [f64]) {
-    for &entry in &chain.entries {
-        let limits = &robot.driven_joint(entry).limits;
-        q[entry] = q[entry].clamp(limits.lower, limits.upper);
+    /// Adds (I − J⁺ J) share (posture − q), clamped to limits.
+    fn step_in_null_space(&mut self, q: &mut [f64], posture: &[f64], share: f64) {
+        self.linearise(q);
+        let Some(factor) = self.factor(1e-9, &[false; crate::MAX_CHAIN_JOINTS]) else { return };
+        let wish = |i: usize| share * (posture[self.chain.entries[i]] - q[self.chain.entries[i]]);
+        let moved: Vector6<f64> = self.rows.iter().enumerate().map(|(i, row)| row * wish(i)).sum();
+        let pull = factor.solve(&moved);
+        let step: PerJoint =
+            std::array::from_fn(|i| self.rows.get(i).map_or(0.0, |row| wish(i) - row.dot(&pull)));
+        let scale = LARGEST_STEP / step.iter().fold(LARGEST_STEP, |largest, step| largest.max(step.abs()));
+        for (i, &entry) in self.chain.entries.iter().enumerate() {
+            let limits = &self.robot.driven_joint(entry).limits;
+            q[entry] = (q[entry] + step[i] * scale).clamp(limits.lower, limits.upper);
+        }
     }
-}
 
-/// Draws the chain's joints from their ranges; a joint without limits from one turn.
-fn scatter(robot: &Robot, chain: &Chain, q: &mut [f64], rng: &mut ChaCha8Rng) {
-    for &entry in &chain.entries {
-        let (lower, upper) = sampling_range(robot, entry);
-        q[entry] = lower + (upper - lower) * rng.random::<f64>();
+    fn clamp(&self, q: &mut [f64]) {
+        for &entry in &self.chain.entries {
+            let limits = &self.robot.driven_joint(entry).limits;
+            q[entry] = if q[entry].is_finite() { q[entry] } else { 0.0 }.clamp(limits.lower, limits.upper);
+        }
+    }
+
+    /// Draws the chain's joints from their ranges; a joint without limits from one turn.
+    fn scatter(&self, q: &mut [f64], rng: &mut ChaCha8Rng) {
+        for &entry in &self.chain.entries {
+            let (lower, upper) = sampling_range(self.robot, entry);
+            q[entry] = lower + (upper - lower) * rng.random::<f64>();
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! How the tool moves when joints do.
 
-use crate::{Chain, JointKind, Robot};
-use nalgebra::{Isometry3, Vector3};
+use crate::MAX_CHAIN_JOINTS;
+use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
 /// What one joint of a chain does to the tool, per radian or metre, in the root frame.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -12,23 +12,35 @@ pub struct JacobianColumn {
     pub angular: Vector3<f64>,
 }
 
-/// The geometric Jacobian of the tool, one column per entry of the chain, from the poses of
-/// [`Robot::link_poses`]. Joints that mimic add to the column of their leader.
-pub fn jacobian(robot: &Robot, chain: &Chain, poses: &[Isometry3<f64>], columns: &mut Vec<JacobianColumn>) {
-    columns.clear();
-    columns.resize(chain.entries.len(), JacobianColumn::default());
-    let tool = poses[chain.tool].translation.vector;
-    for &(j, place, factor) in &chain.moves {
-        let joint = &robot.joints[j];
-        // The motion leaves its own axis and origin where they are, so the child's pose will do for revolute joints.
-        let child = &poses[joint.child];
-        let axis = child.rotation * joint.axis.into_inner() * factor;
-        let column = &mut columns[place];
-        if joint.kind == JointKind::Prismatic {
-            column.linear += axis;
-        } else {
-            column.linear += axis.cross(&(tool - child.translation.vector));
-            column.angular += axis;
-        }
+impl JacobianColumn {
+    /// Linear part first.
+    pub fn stacked(&self) -> Vector6<f64> {
+        let (v, w) = (&self.linear, &self.angular);
+        Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z)
     }
 }
+
+/// √det(J Jᵀ) of the columns of [`crate::Chain::linearise`] (Yoshikawa 1985): 0 at a singularity. With fewer than six joints
+/// √det(Jᵀ J), which is 0 where two joints do the same. Metres and radians mix, so compare values of one robot only.
+pub fn manipulability(columns: &[JacobianColumn]) -> f64 {
+    let square = if columns.len() >= 6 {
+        let mut square = Matrix6::zeros();
+        for column in columns {
+            let column = column.stacked();
+            square += column * column.transpose();
+        }
+        square.determinant()
+    } else {
+        let mut square = SMatrix::<f64, 5, 5>::identity();
+        for (i, a) in columns.iter().enumerate() {
+            for (j, b) in columns.iter().enumerate() {
+                square[(i, j)] = a.stacked().dot(&b.stacked());
+            }
+        }
+        square.determinant()
+    };
+    square.max(0.0).sqrt()
+}
+
+/// J J' of at most [`MAX_CHAIN_JOINTS`] columns needs no heap; this is the room for one value a joint.
+pub(crate) type PerJoint = [f64; MAX_CHAIN_JOINTS];

@@ -1,6 +1,7 @@
 //! The model: links joined by joints into one tree, and where every link is for given joint positions.
 
-use crate::{Solid, UrdfError, check, rotation, scan};
+use crate::read::{MeshUse, ReadOptions};
+use crate::{Problem, Solid, UrdfError, check, rotation, scan};
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A robot, its tree checked.
@@ -14,6 +15,8 @@ pub struct Robot {
     pub joints: Vec<Joint>,
     /// Names of the joints that can be driven, one per entry of a configuration.
     pub(crate) driven: Vec<usize>,
+    /// What a person should look at, although it does not keep the robot from being used; in the order of the text.
+    pub problems: Vec<Problem>,
 }
 
 /// A rigid part.
@@ -21,8 +24,12 @@ pub struct Robot {
 pub struct Link {
     /// Unique.
     pub name: String,
+    /// Where it stands in the text, from 1.
+    pub line: usize,
     /// What it is for collisions.
     pub solids: Vec<Placed>,
+    /// The collision meshes among them.
+    pub meshes: Vec<MeshUse>,
 }
 
 /// A solid, fixed somewhere.
@@ -39,6 +46,8 @@ pub struct Placed {
 pub struct Joint {
     /// Unique.
     pub name: String,
+    /// Where it stands in the text, from 1.
+    pub line: usize,
     /// How it moves.
     pub kind: JointKind,
     /// Index of the parent link.
@@ -100,15 +109,29 @@ pub enum Drive {
 }
 
 impl Robot {
-    /// Reads a URDF.
+    /// Reads a URDF whose collision shapes are primitives; one with collision meshes is refused.
     ///
     /// # Errors
     /// The first thing wrong with it: see [`UrdfError`].
     pub fn from_urdf(text: &str) -> Result<Self, UrdfError> {
+        let mut none = |_: &str| Err("no place to look for meshes was given".to_owned());
+        Self::read(text, &mut none, &ReadOptions::default())
+    }
+
+    /// Reads a URDF. `find_mesh` returns the bytes behind the `filename` of a mesh, or why there are none; it is asked once
+    /// for each name.
+    ///
+    /// # Errors
+    /// The first thing wrong with it: see [`UrdfError`].
+    pub fn read(
+        text: &str,
+        find_mesh: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+        options: &ReadOptions,
+    ) -> Result<Self, UrdfError> {
         let scan = scan::scan(text)?;
         let parsed = urdf_rs::read_from_string(text)
             .map_err(|error| UrdfError::Format { problem: scan::shorten(&error.to_string()) })?;
-        check::build(&parsed, &scan)
+        check::build(&parsed, &scan, find_mesh, options)
     }
 
     /// Number of joints that can be driven: the length of a configuration.

@@ -5,7 +5,7 @@
 use crate::UrdfError;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest description read, bytes.
 pub const MAX_BYTES: usize = 10_000_000;
@@ -19,7 +19,7 @@ pub const MAX_SOLIDS: usize = 256;
 pub const MAX_ELEMENTS: usize = 100_000;
 const MAX_ATTRIBUTES: usize = 32;
 
-const JOINT_TYPES: [&str; 4] = ["revolute", "continuous", "prismatic", "fixed"];
+const JOINT_TYPES: [&str; 6] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
 
 /// Where things stand in the text.
 #[derive(Debug, Default)]
@@ -27,7 +27,9 @@ pub(crate) struct Scan {
     pub links: BTreeMap<String, usize>,
     pub joints: BTreeMap<String, usize>,
     /// Joints with a `<limit>`.
-    pub limited: Vec<String>,
+    pub limited: BTreeSet<String>,
+    /// Of every link, where its `<collision>` elements start.
+    pub collisions: BTreeMap<String, Vec<usize>>,
 }
 
 /// One link or joint that is being read.
@@ -165,6 +167,9 @@ impl Pass {
         line: usize,
     ) -> Result<(), UrdfError> {
         let Some(owner) = &mut self.owner else { return Ok(()) };
+        if depth == 2 && owner.kind == "link" && element == "collision" {
+            self.scan.collisions.entry(owner.name.clone()).or_default().push(line);
+        }
         if depth == 2 && owner.kind == "joint" {
             match element {
                 "parent" => {
@@ -181,7 +186,7 @@ impl Pass {
                 "limit" => {
                     required(attributes, element, "velocity", line)?;
                     owner.seen.push("limit");
-                    self.scan.limited.push(owner.name.clone());
+                    self.scan.limited.insert(owner.name.clone());
                 }
                 _ => {}
             }

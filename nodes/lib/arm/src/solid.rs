@@ -1,11 +1,11 @@
-//! Primitive solids, and the one edge at which they and their poses become parry's.
+//! Solids: the primitives of URDF, and convex pieces of a mesh.
 
-use nalgebra::{Isometry3, Vector3};
-use parry3d_f64::math::{Pose, Rotation, Vector};
-use parry3d_f64::shape::{Ball, Capsule, Cuboid, Cylinder, Shape};
+use crate::hull::Hull;
+use nalgebra::Vector3;
+use std::sync::Arc;
 
-/// A convex solid, centred in its own frame; cylinders and capsules along z, as in URDF.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A solid in its own frame; primitives are centred, cylinders and capsules along z, as in URDF.
+#[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
     /// Sphere.
     Ball {
@@ -31,76 +31,46 @@ pub enum Solid {
         /// Half of the straight part, metres.
         half_length: f64,
     },
+    /// The union of convex pieces; shared, so that copies cost nothing. At least one.
+    Hulls(Vec<Arc<Hull>>),
 }
 
 impl Solid {
-    /// Radius of the smallest sphere about the centre that holds it, metres.
+    /// Radius of a sphere about the origin that holds it, metres.
     pub fn bounding_radius(&self) -> f64 {
         match *self {
             Self::Ball { radius } => radius,
             Self::Box { half_extents } => Vector3::from(half_extents).norm(),
             Self::Cylinder { radius, half_length } => (radius * radius + half_length * half_length).sqrt(),
             Self::Capsule { radius, half_length } => radius + half_length,
-        }
-    }
-
-    /// Distance from a point of the solid's frame to the solid, metres; zero inside.
-    pub fn distance_to_point(&self, at: &Vector3<f64>) -> f64 {
-        match *self {
-            Self::Ball { radius } => (at.norm() - radius).max(0.0),
-            Self::Box { half_extents: [x, y, z] } => {
-                Vector3::new((at.x.abs() - x).max(0.0), (at.y.abs() - y).max(0.0), (at.z.abs() - z).max(0.0)).norm()
-            }
-            Self::Cylinder { radius, half_length } => {
-                let radial = ((at.x * at.x + at.y * at.y).sqrt() - radius).max(0.0);
-                let axial = (at.z.abs() - half_length).max(0.0);
-                (radial * radial + axial * axial).sqrt()
-            }
-            Self::Capsule { radius, half_length } => {
-                let axial = (at.z.abs() - half_length).max(0.0);
-                ((at.x * at.x + at.y * at.y + axial * axial).sqrt() - radius).max(0.0)
+            Self::Hulls(ref hulls) => {
+                hulls.iter().flat_map(|hull| hull.corners()).map(|c| c.norm_squared()).fold(0.0, f64::max).sqrt()
             }
         }
     }
-}
 
-/// A parry shape; cylinders and capsules lie along its y.
-#[derive(Debug, Clone)]
-pub(crate) enum ParryShape {
-    Ball(Ball),
-    Cuboid(Cuboid),
-    Cylinder(Cylinder),
-    Capsule(Capsule),
-}
-
-impl ParryShape {
-    pub fn as_shape(&self) -> &dyn Shape {
-        match self {
-            Self::Ball(shape) => shape,
-            Self::Cuboid(shape) => shape,
-            Self::Cylinder(shape) => shape,
-            Self::Capsule(shape) => shape,
-        }
+    /// Smallest and largest coordinates.
+    pub fn bounds(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let half = match *self {
+            Self::Ball { radius } => Vector3::repeat(radius),
+            Self::Box { half_extents } => Vector3::from(half_extents),
+            Self::Cylinder { radius, half_length } => Vector3::new(radius, radius, half_length),
+            Self::Capsule { radius, half_length } => Vector3::new(radius, radius, half_length + radius),
+            Self::Hulls(ref hulls) => return bounds_of(hulls.iter().flat_map(|hull| hull.corners())),
+        };
+        (-half, half)
     }
 }
 
-/// The same solid for parry, and the pose of parry's shape in the solid's frame.
-pub(crate) fn to_parry(solid: &Solid) -> (ParryShape, Pose) {
-    // A quarter turn about x takes parry's y to our z.
-    let half = std::f64::consts::FRAC_1_SQRT_2;
-    let z_from_y = Pose::from_parts(Vector::ZERO, Rotation::from_xyzw(half, 0.0, 0.0, half));
-    match *solid {
-        Solid::Ball { radius } => (ParryShape::Ball(Ball::new(radius)), Pose::IDENTITY),
-        Solid::Box { half_extents: [x, y, z] } => {
-            (ParryShape::Cuboid(Cuboid::new(Vector::new(x, y, z))), Pose::IDENTITY)
-        }
-        Solid::Cylinder { radius, half_length } => (ParryShape::Cylinder(Cylinder::new(half_length, radius)), z_from_y),
-        Solid::Capsule { radius, half_length } => (ParryShape::Capsule(Capsule::new_y(half_length, radius)), z_from_y),
-    }
+fn bounds_of(points: impl Iterator<Item = Vector3<f64>>) -> (Vector3<f64>, Vector3<f64>) {
+    let nothing = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    points.fold(nothing, |(low, high), p| (low.inf(&p), high.sup(&p)))
 }
 
-/// The same pose for parry.
-pub(crate) fn to_parry_pose(pose: &Isometry3<f64>) -> Pose {
-    let (t, r) = (&pose.translation.vector, pose.rotation.coords);
-    Pose::from_parts(Vector::new(t.x, t.y, t.z), Rotation::from_xyzw(r.x, r.y, r.z, r.w))
+/// Middle and radius of a sphere that holds points: about the middle of the box around them.
+pub(crate) fn sphere_around(points: impl ExactSizeIterator<Item = Vector3<f64>> + Clone) -> (Vector3<f64>, f64) {
+    let (low, high) = bounds_of(points.clone());
+    let middle = 0.5 * (low + high);
+    // A hair more, for the rounding of what is computed with it.
+    (middle, (1.0 + 1e-12) * points.map(|p| (p - middle).norm_squared()).fold(0.0, f64::max).sqrt())
 }

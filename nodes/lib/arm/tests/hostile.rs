@@ -49,8 +49,8 @@ fn each_problem_has_its_message() {
         ),
         (with_joint("", ""), "line 2: <joint> lacks the attribute 'type'"),
         (
-            with_joint("type='floating'", ""),
-            "line 2: joint 'j' has the type 'floating'; expected revolute, continuous, prismatic or fixed",
+            with_joint("type='ball'", ""),
+            "line 2: joint 'j' has the type 'ball'; expected revolute, continuous, prismatic, fixed, floating or planar",
         ),
         (revolute(""), "line 2: joint 'j' lacks <limit>"),
         (
@@ -75,8 +75,8 @@ fn each_problem_has_its_message() {
             "line 2: joint 'j' has lower limit 2 above upper limit 1; swap them",
         ),
         (
-            revolute("<limit lower='0' upper='1' effort='1' velocity='0'/>"),
-            "line 2: joint 'j' has the velocity limit 0; it must lie above 0",
+            revolute("<limit lower='0' upper='1' effort='1' velocity='-1'/>"),
+            "line 2: joint 'j' has the velocity limit -1; it must not lie below 0",
         ),
         (revolute(&format!("{LIMIT}<mimic joint='k'/>")), "line 2: joint 'j' mimics 'k', which is no moving joint"),
         (revolute(&format!("{LIMIT}<mimic joint='j'/>")), "line 2: joint 'j' mimics, joint by joint, itself"),
@@ -110,7 +110,7 @@ fn each_problem_has_its_message() {
         (
             "<robot>\n<link name='a'><collision><geometry><mesh filename='arm.stl'/></geometry></collision></link></robot>"
                 .into(),
-            "line 2: link 'a' has a collision mesh, not supported yet in this release: arm.stl",
+            "line 2: the collision mesh of link 'a' cannot be used: arm.stl: no place to look for meshes was given; give it, or accept",
         ),
         (
             "<robot><link name='a'><collision><geometry/></collision></link></robot>".into(),

@@ -1,12 +1,12 @@
 //! Inverse kinematics: solutions meet the goal and the limits, agree with the closed form, and repeat.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use arm::{AxisGoal, Chain, IkOutcome, IkSettings, Robot, Vector3, solve};
+use arm::{AxisGoal, Chain, Goal, IkOutcome, IkSettings, Robot, Vector3, solve};
 
 const TABLE_ARM: &str = include_str!("../../../../config/urdf/table_arm.urdf");
 
-fn down(x: f64, y: f64, z: f64) -> AxisGoal {
-    AxisGoal { position: Vector3::new(x, y, z), direction: -Vector3::z_axis() }
+fn down(x: f64, y: f64, z: f64) -> Goal {
+    Goal::Axis(AxisGoal { position: Vector3::new(x, y, z), direction: -Vector3::z_axis() })
 }
 
 #[test]
@@ -19,7 +19,7 @@ fn planar_arm_finds_the_closed_form() {
     let robot = Robot::from_urdf(text).unwrap();
     let chain = Chain::new(&robot, "tip").unwrap();
     for (x, y) in [(0.6, 0.2), (-0.3, 0.4), (0.1, -0.5), (0.25, 0.0), (0.0, 0.75)] {
-        let goal = AxisGoal { position: Vector3::new(x, y, 0.0), direction: Vector3::z_axis() };
+        let goal = Goal::Axis(AxisGoal { position: Vector3::new(x, y, 0.0), direction: Vector3::z_axis() });
         let outcome = solve(&robot, &chain, &goal, &[0.1, 0.5], &IkSettings::default(), |_| true);
         let IkOutcome::Solved(q) = outcome else { panic!("({x}, {y}): {outcome:?}") };
         // Law of cosines; the limit leaves one of the two elbows.
@@ -39,7 +39,8 @@ fn solutions_meet_goal_and_limits_and_repeat() {
     let start = [0.0, -0.6, 2.2, 0.0, 1.54, 0.0, 0.05];
     let (mut poses, mut solved) = (Vec::new(), 0);
     for i in 0..100 {
-        let goal = down(0.05 + 0.1 * f64::from(i % 10), 0.05 + 0.09 * f64::from(i / 10), 0.15);
+        let at = Vector3::new(0.05 + 0.1 * f64::from(i % 10), 0.05 + 0.09 * f64::from(i / 10), 0.15);
+        let goal = down(at.x, at.y, at.z);
         let settings = IkSettings::default();
         let outcome = solve(&robot, &chain, &goal, &start, &settings, |_| true);
         assert_eq!(outcome, solve(&robot, &chain, &goal, &start, &settings, |_| true));
@@ -47,7 +48,7 @@ fn solutions_meet_goal_and_limits_and_repeat() {
             assert!(robot.within_limits(&q));
             robot.link_poses(&q, &mut poses);
             let tool = poses[chain.tool];
-            assert!((tool.translation.vector - goal.position).norm() <= 1e-6);
+            assert!((tool.translation.vector - at).norm() <= 1e-6);
             assert!((tool.rotation * Vector3::z() + Vector3::z()).norm() <= 1.1e-6);
             assert_eq!(q[6], start[6], "the finger does not move the tool");
             solved += 1;

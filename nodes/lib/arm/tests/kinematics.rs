@@ -1,7 +1,7 @@
 //! Forward kinematics against poses computed by hand and from DH parameters; the Jacobian against finite differences.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use arm::{Chain, Isometry3, Robot, Vector3, jacobian};
+use arm::{Chain, Isometry3, Robot, Vector3, manipulability};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const TABLE_ARM: &str = include_str!("../../../../config/urdf/table_arm.urdf");
@@ -132,10 +132,12 @@ fn jacobian_matches_central_differences() {
     ] {
         let robot = Robot::from_urdf(text).unwrap();
         let chain = Chain::new(&robot, tool).unwrap();
-        let (mut poses, mut columns) = (Vec::new(), Vec::new());
-        robot.link_poses(&q, &mut poses);
-        jacobian(&robot, &chain, &poses, &mut columns);
+        let mut columns = Vec::new();
+        let pose = chain.linearise(&q, &mut columns);
         assert_eq!(columns.len(), chain.entries.len());
+        let expected = pose_of(&robot, &q, tool);
+        assert!((pose.to_homogeneous() - expected.to_homogeneous()).norm() < 1e-13);
+        assert_eq!(pose, chain.tool_pose(&q));
         let h = 1e-6;
         for (column, &entry) in columns.iter().zip(&chain.entries) {
             let at = |offset: f64| {
@@ -172,13 +174,35 @@ fn chain_knows_its_joints_and_its_hand() {
 fn levers_bound_how_far_the_tool_moves() {
     let robot = Robot::from_urdf(TABLE_ARM).unwrap();
     let chain = Chain::new(&robot, "tool0").unwrap();
-    let (mut poses, mut columns) = (Vec::new(), Vec::new());
+    let mut columns = Vec::new();
     // The straight arm, stretched out: 1.47 from the origin of the base's joint, 0.22 from the wrist's.
     assert!((chain.levers[0] - 1.47).abs() < 1e-12 && (chain.levers[4] - 0.22).abs() < 1e-12, "{:?}", chain.levers);
     for case in 0..200 {
         let q: Vec<f64> = (0..7).map(|j| f64::sin(1.7 * f64::from(case) + 2.3 * f64::from(j)) * 2.0).collect();
-        robot.link_poses(&q, &mut poses);
-        jacobian(&robot, &chain, &poses, &mut columns);
+        chain.linearise(&q, &mut columns);
         assert!(columns.iter().zip(&chain.levers).all(|(column, &lever)| column.linear.norm() <= lever + 1e-12));
     }
+}
+
+#[test]
+fn manipulability_is_the_textbook_one_and_vanishes_at_singularities() {
+    // Two links in the plane: only l1 l2 |sin q2| of the position matters, and √det(JᵀJ) of the whole 6 × 2 Jacobian adds turns:
+    // the columns are (position, 1), so det = |a|²|b|² − (a·b)² with a, b of position and turn.
+    let robot = Robot::from_urdf(PLANAR).unwrap();
+    let chain = Chain::new(&robot, "tip").unwrap();
+    let mut columns = Vec::new();
+    for (a, b) in [(0.3, 0.8), (-1.0, 2.0)] {
+        chain.linearise(&[a, b], &mut columns);
+        let first = Vector3::new(-0.5 * f64::sin(a) - 0.3 * f64::sin(a + b), 0.5 * f64::cos(a) + 0.3 * f64::cos(a + b), 1.0);
+        let second = Vector3::new(-0.3 * f64::sin(a + b), 0.3 * f64::cos(a + b), 1.0);
+        let expected = first.cross(&second).norm();
+        assert!((manipulability(&columns) - expected).abs() < 1e-12);
+    }
+    // Six joints: zero with the wrist straight, where two of them turn about one line.
+    let robot = Robot::from_urdf(TABLE_ARM).unwrap();
+    let chain = Chain::new(&robot, "tool0").unwrap();
+    chain.linearise(&[0.0, 0.5, 1.0, 0.0, 0.0, 0.0, 0.0], &mut columns);
+    assert!(manipulability(&columns) < 1e-9);
+    chain.linearise(&[0.0, 0.5, 1.0, 0.0, 1.0, 0.0, 0.0], &mut columns);
+    assert!(manipulability(&columns) > 1e-2);
 }

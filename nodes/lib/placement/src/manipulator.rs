@@ -3,10 +3,11 @@
 use crate::MotionSettings;
 use crate::settings::{ABOVE_MARGIN_M, LEAST_APPROACH_M};
 use arm::{
-    AxisGoal, Chain, ChainError, CollisionModel, Exclusions, IkOutcome, IkSettings, Isometry3, Obstacle, Placed,
-    Point3, Robot, Solid, Translation3, UrdfError, Vector3, World, about_z, solve,
+    AxisGoal, Chain, ChainError, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Obstacle,
+    Placed, Point3, Robot, Solid, SweepSettings, Translation3, UrdfError, Vector3, World, about_z, solve,
 };
 use scene::{Object, Point, Scene, Shape};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Thickness of the slab that stands for the table, metres.
@@ -24,14 +25,20 @@ pub enum ManipulatorError {
     /// The tool link cannot be moved.
     #[error(transparent)]
     Chain(#[from] ChainError),
+    /// A joint of the arm may not move, so no motion of it can be timed.
+    #[error("joint '{joint}' of the arm has the velocity limit 0; give its largest speed in the robot description")]
+    Speed {
+        /// The joint.
+        joint: String,
+    },
 }
 
 /// A robot arm with a tool.
 #[derive(Debug, Clone)]
 pub struct Manipulator {
-    pub(crate) robot: Robot,
+    pub(crate) robot: Arc<Robot>,
     pub(crate) chain: Chain,
-    pub(crate) model: CollisionModel,
+    model: Arc<CollisionModel>,
     hand: Vec<bool>,
     pub(crate) settings: MotionSettings,
 }
@@ -45,18 +52,41 @@ pub(crate) struct Cell<'a> {
 }
 
 impl Manipulator {
-    /// Reads an arm from a URDF.
+    /// Reads an arm from a URDF whose collision shapes are primitives.
     ///
     /// # Errors
     /// A description that is wrong, or a tool link that is not there or does not move.
-    pub fn from_urdf(text: &str, mut settings: MotionSettings) -> Result<Self, ManipulatorError> {
+    pub fn from_urdf(text: &str, settings: MotionSettings) -> Result<Self, ManipulatorError> {
+        Self::new(Robot::from_urdf(text)?, None, settings)
+    }
+
+    /// An arm that was read already, with the pairs of links that may touch; without such a list those that always do.
+    ///
+    /// # Errors
+    /// A tool link that is not there or does not move, or a joint of the arm that may not move.
+    pub fn new(
+        robot: Robot,
+        exclusions: Option<&Exclusions>,
+        mut settings: MotionSettings,
+    ) -> Result<Self, ManipulatorError> {
         // Nearer than the margin to what it is put on, the target would count as touching it.
         settings.release_m = settings.release_m.max(settings.margin_m + ABOVE_MARGIN_M);
-        let robot = Robot::from_urdf(text)?;
         let chain = Chain::new(&robot, &settings.tool_link)?;
-        let model = CollisionModel::new(&robot, &Exclusions::derived(&robot, settings.seed));
+        let limits = |entry: usize| robot.driven_joint(entry).limits;
+        if let Some(&still) = chain.entries.iter().find(|&&entry| limits(entry).velocity == 0.0) {
+            return Err(ManipulatorError::Speed { joint: robot.driven_joint(still).name.clone() });
+        }
+        let model = match exclusions {
+            Some(exclusions) => CollisionModel::new(&robot, exclusions),
+            None => CollisionModel::new(&robot, &Exclusions::derived(&robot, settings.seed)),
+        };
         let hand = chain.hand(&robot);
-        Ok(Self { robot, chain, model, hand, settings })
+        Ok(Self { robot: Arc::new(robot), chain, model: Arc::new(model), hand, settings })
+    }
+
+    /// One for each thread.
+    pub(crate) fn checker(&self) -> Checker {
+        Checker::new(Arc::clone(&self.robot), Arc::clone(&self.model))
     }
 
     /// The robot.
@@ -118,25 +148,28 @@ impl Manipulator {
 
 impl Cell<'_> {
     /// Where the tool is when the target's base is `base_m` above the table at a point.
-    pub fn goal(&self, at_m: Point, base_m: f64) -> AxisGoal {
+    pub fn goal(&self, at_m: Point, base_m: f64) -> Goal {
         let position = self.root_from_table * Point3::new(at_m.x, at_m.y, base_m + self.grip_height_m);
-        AxisGoal { position: position.coords, direction: self.root_from_table.rotation * -Vector3::z_axis() }
+        let direction = self.root_from_table.rotation * -Vector3::z_axis();
+        Goal::Axis(AxisGoal { position: position.coords, direction })
     }
 
     /// Whether nothing touches in a configuration.
-    pub fn is_free(&self, q: &[f64], poses: &mut Vec<Isometry3<f64>>) -> bool {
-        let Manipulator { robot, model, settings, .. } = self.manipulator;
-        robot.link_poses(q, poses);
-        model.is_free(robot, poses, &self.world, settings.margin_m)
+    pub fn is_free(&self, q: &[f64], checker: &mut Checker) -> bool {
+        checker.is_free(q, &self.world, self.manipulator.settings.margin_m)
+    }
+
+    /// Whether nothing touches on the straight way between two configurations; proven, nothing is stepped over.
+    pub fn way_is_free(&self, from: &[f64], to: &[f64], checker: &mut Checker) -> bool {
+        let settings = SweepSettings { margin: self.manipulator.settings.margin_m, ..SweepSettings::default() };
+        checker.way_is_free(from, to, &self.world, &settings)
     }
 
     /// What touches in a configuration.
     pub fn contact(&self, q: &[f64]) -> Option<(String, String)> {
-        let Manipulator { robot, model, settings, .. } = self.manipulator;
-        let mut poses = Vec::new();
-        robot.link_poses(q, &mut poses);
-        let contact = model.first_contact(robot, &poses, &self.world, settings.margin_m)?;
-        Some((contact.a.into(), contact.b.into()))
+        let Manipulator { robot, settings, .. } = self.manipulator;
+        let contact = self.manipulator.checker().first_contact(q, &self.world, settings.margin_m)?;
+        Some((contact.a.name(robot, &self.world).into(), contact.b.name(robot, &self.world).into()))
     }
 
     /// A configuration that puts the target's base `base_m` above a point and touches nothing, there and a little above;
@@ -146,13 +179,13 @@ impl Cell<'_> {
         let ik = IkSettings { restarts, seed: settings.seed, ..IkSettings::default() };
         let above = IkSettings { restarts: 0, ..ik };
         let lifted = self.goal(at_m, base_m + LEAST_APPROACH_M);
-        let mut poses = Vec::new();
+        let mut checker = self.manipulator.checker();
         let outcome = solve(robot, chain, &self.goal(at_m, base_m), start, &ik, |q| {
-            let rises = |poses: &mut Vec<_>| match solve(robot, chain, &lifted, q, &above, |_| true) {
-                IkOutcome::Solved(up) => self.is_free(&up, poses),
+            let rises = |checker: &mut Checker| match solve(robot, chain, &lifted, q, &above, |_| true) {
+                IkOutcome::Solved(up) => self.is_free(&up, checker),
                 _ => false,
             };
-            self.is_free(q, &mut poses) && rises(&mut poses)
+            self.is_free(q, &mut checker) && rises(&mut checker)
         });
         match outcome {
             IkOutcome::Solved(q) => Some(q),

@@ -46,7 +46,5 @@ impl Default for MotionSettings {
 pub(crate) const ABOVE_MARGIN_M: f64 = 0.003;
 /// The target is brought at least this far above its place, metres.
 pub(crate) const LEAST_APPROACH_M: f64 = 0.03;
-/// The largest change of a joint between two checks, radians or metres.
-pub(crate) const JOINT_STEP: f64 = 0.02;
-/// The farthest the tool moves between two checks, metres.
+/// The farthest the tool goes up between two solutions of the inverse kinematics, metres.
 pub(crate) const TOOL_STEP_M: f64 = 0.005;

@@ -4,12 +4,13 @@
 mod common;
 
 use arm::{
-    AxisGoal, Chain, CollisionModel, Exclusions, IkOutcome, IkSettings, Isometry3, Obstacle, Placed, Robot, Solid,
-    Translation3, Vector3, World, about_z, solid_distance, solve,
+    AxisGoal, Chain, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Obstacle, Placed, Robot,
+    Solid, Translation3, Vector3, World, about_z, solid_distance, solve,
 };
 use common::{TABLE_ARM, flowers, home, object, posterior, wall};
 use placement::{CellState, LossBatch, MAP_SIDE, Manipulator, MotionSettings, PlanOutcome, Planner, ReachMap};
 use scene::{Grid, Object, Point, Rbf, Scene, Shape};
+use std::sync::Arc;
 
 fn planner() -> Planner {
     let mut planner = Planner::new(MotionSettings::default());
@@ -54,12 +55,17 @@ fn world(robot: &Robot, chain: &Chain, scene: &Scene) -> World {
     world
 }
 
+fn checker(robot: &Robot) -> Checker {
+    let model = CollisionModel::new(robot, &Exclusions::derived(robot, 1));
+    Checker::new(Arc::new(robot.clone()), Arc::new(model))
+}
+
 /// Re-checks a trajectory: starts where the arm is, ends at rest with the target over its place, keeps the limits of
 /// speed, and touches nothing on straight lines and on cubics between its points.
 fn check_trajectory(scene: &Scene, plan: &placement::PlacementPlan, joints: &[(String, f64)], base_m: f64) {
     let robot = Robot::from_urdf(TABLE_ARM).unwrap();
     let chain = Chain::new(&robot, "tool0").unwrap();
-    let model = CollisionModel::new(&robot, &Exclusions::derived(&robot, 1));
+    let mut checker = checker(&robot);
     let world = world(&robot, &chain, scene);
     let start: Vec<f64> = joints.iter().map(|(_, position)| *position).collect();
     let points = &plan.trajectory.points;
@@ -70,13 +76,12 @@ fn check_trajectory(scene: &Scene, plan: &placement::PlacementPlan, joints: &[(S
     assert!(points[0].positions.iter().zip(&start).all(|(a, b)| (a - b).abs() < 1e-12));
     let last = points.last().unwrap();
     assert!(points[0].velocities.iter().chain(&last.velocities).all(|v| *v == 0.0));
-    let mut poses = Vec::new();
     let mut q = start.clone();
     let mut tool_at = |positions: &[f64]| {
         q[..6].copy_from_slice(positions);
-        robot.link_poses(&q, &mut poses);
-        let contact = model.first_contact(&robot, &poses, &world, 0.0).map(|c| (c.a.to_owned(), c.b.to_owned()));
-        (poses[chain.tool], contact)
+        let contact = checker.first_contact(&q, &world, 0.0);
+        let names = contact.map(|c| (c.a.name(&robot, &world).to_owned(), c.b.name(&robot, &world).to_owned()));
+        (chain.tool_pose(&q), names)
     };
     for pair in points.windows(2) {
         let dt = pair[1].time_from_start_s - pair[0].time_from_start_s;
@@ -192,14 +197,13 @@ fn reach_map_is_what_brute_force_finds() {
     let map = ReachMap::new(&manipulator, &scene, MAP_SIDE).unwrap();
     let (robot, grid) = (manipulator.robot(), Grid::midpoints(MAP_SIDE));
     let chain = Chain::new(robot, "tool0").unwrap();
-    let model = CollisionModel::new(robot, &Exclusions::derived(robot, 1));
+    let mut checker = checker(robot);
     let empty = Scene { objects: Vec::new(), ..scene.clone() };
     let (world, occupied) = (world(robot, &chain, &empty), empty.occupied());
     let inside = (0..grid.n()).filter(|&i| occupied.is_free(scene.metres(grid.at(i)))).count();
     // Most of the table, not the far corners.
     assert!(map.n_reachable() * 100 > inside * 85 && map.n_reachable() < inside, "{} of {inside}", map.n_reachable());
     assert!(map.configuration(31 * 32 + 31).is_none());
-    let mut poses = Vec::new();
     let (mut in_reach, mut out) = (0, 0);
     // Every cell that the map leaves out, and one in seven of the others.
     for i in (0..grid.n()).filter(|&i| i % 7 == 0 || map.configuration(i).is_none()) {
@@ -209,18 +213,18 @@ fn reach_map_is_what_brute_force_finds() {
             continue;
         }
         // Many more starts than the map used, from another seed.
-        let goal =
-            |base: f64| AxisGoal { position: Vector3::new(at.x, at.y, base + 0.17), direction: -Vector3::z_axis() };
+        let goal = |base: f64| {
+            let position = Vector3::new(at.x, at.y, base + 0.17);
+            Goal::Axis(AxisGoal { position, direction: -Vector3::z_axis() })
+        };
         let ik = IkSettings { restarts: 100, seed: 99, ..IkSettings::default() };
         let found = solve(robot, &chain, &goal(0.006), &robot.rest(), &ik, |q| {
-            robot.link_poses(q, &mut poses);
-            if !model.is_free(robot, &poses, &world, 0.003) {
+            if !checker.is_free(q, &world, 0.003) {
                 return false;
             }
             let above = IkSettings { restarts: 0, ..ik };
             let IkOutcome::Solved(up) = solve(robot, &chain, &goal(0.036), q, &above, |_| true) else { return false };
-            robot.link_poses(&up, &mut poses);
-            model.is_free(robot, &poses, &world, 0.003)
+            checker.is_free(&up, &world, 0.003)
         });
         let found = matches!(found, IkOutcome::Solved(_));
         assert_eq!(map.configuration(i).is_some(), found, "cell {i} at {at:?}");
