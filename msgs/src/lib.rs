@@ -47,7 +47,7 @@ pub trait Action: 'static {
     /// What the client asks for.
     type Goal: Message;
     /// What came of it.
-    type Result: Message;
+    type Result: Message + Default;
     /// How far it is.
     type Feedback: Message;
     /// Asks for work.

@@ -23,7 +23,7 @@ use crate::{
     queue::{Overflow, Queue},
     signals,
     stop::Stopper,
-    transport::{Guard, RawMessage, TopicInfo, Transport},
+    transport::{Answer, Answered, Caller, Deliver, Guard, RawMessage, TopicInfo, Transport},
 };
 
 use wait::Timer;
@@ -67,7 +67,12 @@ pub struct Bus<E> {
 impl<E: Send + 'static> Bus<E> {
     /// The absolute name of a topic or service after expansion and renaming.
     fn resolve(&self, name: &str) -> Result<String, BusError> {
-        Ok(self.arguments.resolve(&self.name, "topic", name)?)
+        self.resolve_as("topic", name)
+    }
+
+    /// The same for another kind of thing, which an error names.
+    pub(crate) fn resolve_as(&self, kind: &'static str, name: &str) -> Result<String, BusError> {
+        Ok(self.arguments.resolve(&self.name, kind, name)?)
     }
 
     /// The node's name on the graph.
@@ -89,8 +94,13 @@ impl<E: Send + 'static> Bus<E> {
     /// On an illegal name or type name, or when DDS refuses.
     pub fn publisher_raw(&mut self, topic: &str, type_name: &str, qos: QosProfile) -> Result<RawPublisher, BusError> {
         let topic = self.resolve(topic)?;
-        let sink = self.transport.publisher(&topic, type_name, &qos)?;
-        Ok(RawPublisher::new(sink, &topic, Arc::clone(&self.counters)))
+        self.publisher_absolute(&topic, type_name, Qos::Custom(qos))
+    }
+
+    /// The same on an absolute name that is not renamed.
+    pub(crate) fn publisher_absolute(&self, topic: &str, type_name: &str, qos: Qos) -> Result<RawPublisher, BusError> {
+        let sink = self.transport.publisher(topic, type_name, &qos.profile())?;
+        Ok(RawPublisher::new(sink, topic, Arc::clone(&self.counters)))
     }
 
     /// Makes a subscription; each message that can be decoded becomes an event. Those that cannot are counted and
@@ -116,7 +126,7 @@ impl<E: Send + 'static> Bus<E> {
     }
 
     /// Hands every message of an absolute topic that can be decoded to `take`, and counts and reports the others.
-    fn subscribe_decoded<M: Message>(
+    pub(crate) fn subscribe_decoded<M: Message>(
         &mut self,
         name: &str,
         profile: &QosProfile,
@@ -200,21 +210,52 @@ impl<E: Send + 'static> Bus<E> {
         name: &str,
         mut handler: impl FnMut(S::Request) -> S::Response + Send + 'static,
     ) -> Result<(), BusError> {
-        let name = self.arguments.resolve(&self.name, "service", name)?;
+        let name = self.resolve_as("service", name)?;
         let service = name.clone();
-        let guard = self.transport.serve(
-            &name,
-            S::TYPE,
-            Box::new(move |bytes| match from_cdr::<S::Request>(bytes) {
-                Ok(request) => Some(to_cdr(&handler(request))),
-                Err(error) => {
-                    log::warn!("{service}: a malformed request is not answered: {error}");
-                    None
-                }
-            }),
-        )?;
+        self.serve_raw(&name, S::TYPE, move |bytes, answer| match from_cdr::<S::Request>(bytes) {
+            Ok(request) => answer(to_cdr(&handler(request))),
+            Err(error) => log::warn!("{service}: a malformed request is not answered: {error}"),
+        })
+    }
+
+    /// Offers a service by its absolute name, in bytes and with answers whenever.
+    pub(crate) fn serve_raw(
+        &mut self,
+        name: &str,
+        type_name: &str,
+        handler: impl FnMut(&[u8], Answer) + Send + 'static,
+    ) -> Result<(), BusError> {
+        let guard = self.transport.serve(name, type_name, Box::new(handler))?;
         self.guards.push(guard);
         Ok(())
+    }
+
+    /// Makes a client of a service by its absolute name, in bytes.
+    pub(crate) fn client(
+        &mut self,
+        name: &str,
+        type_name: &str,
+        answered: Answered,
+    ) -> Result<Arc<dyn Caller>, BusError> {
+        self.transport.client(name, type_name, answered)
+    }
+
+    /// Hands the messages of an absolute topic to `deliver` as bytes, as long as the node lives.
+    pub(crate) fn listen(
+        &mut self,
+        topic: &str,
+        type_name: &str,
+        profile: &QosProfile,
+        deliver: Deliver,
+    ) -> Result<(), BusError> {
+        let guard = self.transport.subscribe(topic, type_name, profile, deliver)?;
+        self.guards.push(guard);
+        Ok(())
+    }
+
+    /// The node's clock.
+    pub(crate) fn clock(&self) -> Clock {
+        self.clock.clone()
     }
 
     /// Puts events into this node's queue from other threads.

@@ -14,6 +14,7 @@
 //! - SIGINT, SIGTERM, the death of the process named in `APPRENTICE_PARENT_PID`, [`MemoryGraph::shutdown`] and
 //!   [`Stopper::stop`] all have [`Bus::next`] return `None`; a SIGINT after 10 s of that ends the process at once.
 
+mod action;
 mod arguments;
 mod bus;
 mod clock;
@@ -40,6 +41,7 @@ pub mod testing;
 mod transport;
 mod yaml;
 
+pub use action::{ActionClient, ActionEvent, ActionRequest, ActionServer, End, GoalId};
 pub use apprentice_msgs::builtin_interfaces::Time;
 pub use arguments::{ArgumentError, Arguments, DEFAULT_NAMESPACE};
 pub use bus::{Bus, EventSender, Graph, Next, RawSubscription};
@@ -49,6 +51,7 @@ pub use memory::MemoryGraph;
 pub use names::{NameError, NodeName};
 pub use parameter::{NodeSettings, ParameterSpec, ParameterValue, Range};
 pub use parameter_error::{ParameterError, Place};
+pub use parameter_file::sections_of;
 pub use publisher::{Publisher, RawPublisher};
 pub use qos::{Durability, Qos, QosProfile, Reliability};
 pub use settings::{settings_from_yaml, settings_to_yaml};

@@ -2,7 +2,7 @@
 
 use std::{
     collections::{BTreeMap, VecDeque},
-    sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
+    sync::{Arc, Mutex, MutexGuard, PoisonError, Weak, mpsc},
     time::Duration,
 };
 
@@ -14,7 +14,10 @@ use crate::{
     names::NodeName,
     qos::{Durability, QosProfile},
     stop::Stopper,
-    transport::{Deliver, EndpointInfo, Guard, Handler, RawMessage, Sink, TopicInfo, Transport, split_type, weakest},
+    transport::{
+        Answer, Answered, Caller, Deliver, EndpointInfo, Guard, Handler, RawMessage, Sink, TopicInfo, Transport,
+        split_type, weakest,
+    },
 };
 
 /// A graph within this process. Clones are the same graph.
@@ -31,7 +34,7 @@ pub struct MemoryGraph {
 struct Inner {
     publishers: Vec<Publisher>,
     subscriptions: Vec<Subscription>,
-    services: BTreeMap<String, (u64, Arc<Mutex<Handler>>)>,
+    services: BTreeMap<String, Served>,
     stoppers: Vec<Stopper>,
     stopped: bool,
     next_id: u64,
@@ -55,6 +58,13 @@ struct Subscription {
     type_name: String,
     qos: QosProfile,
     deliver: Deliver,
+}
+
+/// One service.
+struct Served {
+    id: u64,
+    type_name: String,
+    handler: Arc<Mutex<Handler>>,
 }
 
 impl MemoryGraph {
@@ -90,12 +100,20 @@ impl MemoryGraph {
         taken
     }
 
-    /// Calls a service by its absolute name; `None` when nobody offers it or it cannot be decoded.
+    /// Calls a service by its absolute name and waits for the answer; `None` when nobody offers it, it is not answered or
+    /// the answer cannot be decoded.
     pub fn call<S: Service>(&self, name: &str, request: &S::Request) -> Option<S::Response> {
-        let handler = Arc::clone(&self.lock().services.get(name)?.1);
+        let handler = Arc::clone(&self.lock().services.get(name)?.handler);
+        let (answer, answered) = mpsc::channel();
         let request = to_cdr(request);
-        let answer = handler.lock().unwrap_or_else(PoisonError::into_inner)(&request)?;
-        from_cdr(&answer).ok()
+        handler.lock().unwrap_or_else(PoisonError::into_inner)(
+            &request,
+            Box::new(move |cdr| {
+                // Nobody waits any more when the call has returned.
+                let _ = answer.send(cdr);
+            }),
+        );
+        from_cdr(&answered.recv().ok()?).ok()
     }
 
     /// The graph as the node `node` sees it.
@@ -148,6 +166,41 @@ pub(crate) struct MemoryTransport {
     node: String,
 }
 
+/// A client's end.
+struct MemoryCaller {
+    graph: MemoryGraph,
+    name: String,
+    type_name: String,
+    answered: Arc<Mutex<Answered>>,
+}
+
+impl MemoryCaller {
+    fn handler(&self) -> Option<Arc<Mutex<Handler>>> {
+        let inner = self.graph.lock();
+        let service = inner.services.get(&self.name).filter(|service| service.type_name == self.type_name)?;
+        Some(Arc::clone(&service.handler))
+    }
+}
+
+impl Caller for MemoryCaller {
+    fn call(&self, number: u64, cdr: Vec<u8>) -> Result<(), BusError> {
+        // Without a server a request is lost, as over DDS.
+        let Some(handler) = self.handler() else { return Ok(()) };
+        let answered = Arc::downgrade(&self.answered);
+        let answer: Answer = Box::new(move |cdr| {
+            if let Some(answered) = answered.upgrade() {
+                answered.lock().unwrap_or_else(PoisonError::into_inner)(number, &cdr);
+            }
+        });
+        handler.lock().unwrap_or_else(PoisonError::into_inner)(&cdr, answer);
+        Ok(())
+    }
+
+    fn servers(&self) -> usize {
+        usize::from(self.handler().is_some())
+    }
+}
+
 /// A publisher's end.
 struct MemorySink {
     graph: MemoryGraph,
@@ -165,7 +218,7 @@ impl Drop for OnDrop {
         if let Some(inner) = self.graph.upgrade() {
             let mut inner = inner.lock().unwrap_or_else(PoisonError::into_inner);
             inner.subscriptions.retain(|subscription| subscription.id != self.id);
-            inner.services.retain(|_, (id, _)| *id != self.id);
+            inner.services.retain(|_, service| service.id != self.id);
         }
     }
 }
@@ -284,11 +337,22 @@ impl Transport for MemoryTransport {
     }
 
     fn serve(&self, name: &str, type_name: &str, handler: Handler) -> Result<Guard, BusError> {
-        split_type(type_name, &["srv"])?;
+        split_type(type_name, &["srv", "action"])?;
         let mut inner = self.graph.lock();
         let id = inner.fresh_id();
-        inner.services.insert(name.to_owned(), (id, Arc::new(Mutex::new(handler))));
+        let service = Served { id, type_name: type_name.to_owned(), handler: Arc::new(Mutex::new(handler)) };
+        inner.services.insert(name.to_owned(), service);
         Ok(Box::new(OnDrop { graph: Arc::downgrade(&self.graph.inner), id }))
+    }
+
+    fn client(&self, name: &str, type_name: &str, answered: Answered) -> Result<Arc<dyn Caller>, BusError> {
+        split_type(type_name, &["srv", "action"])?;
+        Ok(Arc::new(MemoryCaller {
+            graph: self.graph.clone(),
+            name: name.to_owned(),
+            type_name: type_name.to_owned(),
+            answered: Arc::new(Mutex::new(answered)),
+        }))
     }
 
     fn topics(&self) -> Vec<TopicInfo> {

@@ -73,6 +73,14 @@ pub(crate) fn parse(text: &str, place: &dyn Fn(u64) -> Place) -> Result<Vec<Sect
     Ok(sections)
 }
 
+/// Which nodes a parameter file's text is for: the pattern of each section, such as `/**/name`, in their order.
+///
+/// # Errors
+/// Text that is no parameter file.
+pub fn sections_of(text: &str) -> Result<Vec<String>, ParameterError> {
+    Ok(parse(text, &Place::Text)?.into_iter().map(|section| section.pattern).collect())
+}
+
 /// Walks namespaces and nodes down to each `ros__parameters`.
 fn sections_in(
     path: &str,

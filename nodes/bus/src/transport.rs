@@ -20,8 +20,23 @@ pub struct RawMessage {
 /// Takes each message of a subscription, in order, on a thread of the graph.
 pub(crate) type Deliver = Box<dyn FnMut(RawMessage) + Send>;
 
-/// Answers a service: the request's CDR message to the answer's; `None` when the request is malformed.
-pub(crate) type Handler = Box<dyn FnMut(&[u8]) -> Option<Vec<u8>> + Send>;
+/// Sends the answer (a CDR message) to one request, now or later, from any thread. Dropping it leaves the request without one.
+pub(crate) type Answer = Box<dyn FnOnce(Vec<u8>) + Send>;
+
+/// Takes the requests of a service: each CDR message with the way to answer it.
+pub(crate) type Handler = Box<dyn FnMut(&[u8], Answer) + Send>;
+
+/// Takes the answers to a client's requests: the number of the request and the CDR message.
+pub(crate) type Answered = Box<dyn FnMut(u64, &[u8]) + Send>;
+
+/// Sends the requests of one client.
+pub(crate) trait Caller: Send + Sync {
+    /// Sends one request under a number of the caller's choice. Like any request it may be lost, and its answer too.
+    fn call(&self, number: u64, cdr: Vec<u8>) -> Result<(), BusError>;
+
+    /// How many servers are matched both ways.
+    fn servers(&self) -> usize;
+}
 
 /// Sends the messages of one publisher.
 pub(crate) trait Sink: Send + Sync {
@@ -43,8 +58,11 @@ pub(crate) trait Transport: Send + Sync {
     /// Makes a subscription.
     fn subscribe(&self, topic: &str, type_name: &str, qos: &QosProfile, deliver: Deliver) -> Result<Guard, BusError>;
 
-    /// Offers a service of the type `pkg/srv/Name`.
+    /// Offers a service of the type `pkg/srv/Name`, or of a half of an action.
     fn serve(&self, name: &str, type_name: &str, handler: Handler) -> Result<Guard, BusError>;
+
+    /// Makes a client of such a service.
+    fn client(&self, name: &str, type_name: &str, answered: Answered) -> Result<Arc<dyn Caller>, BusError>;
 
     /// What is known of the graph.
     fn topics(&self) -> Vec<TopicInfo>;

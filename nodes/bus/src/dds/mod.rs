@@ -1,6 +1,7 @@
 //! The graph over DDS. Only the files in this folder name RustDDS and `ros2-client`.
 
 mod bytes;
+mod client;
 mod discovery;
 mod environment;
 mod mangle;

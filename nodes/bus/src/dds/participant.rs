@@ -17,6 +17,7 @@ use smol::{Executor, channel};
 
 use crate::{
     dds::{
+        client::DdsCaller,
         discovery::{self, Gid, GraphView, LocalEndpoint},
         environment::{Environment, Range, ServiceMapping},
         mangle,
@@ -29,7 +30,7 @@ use crate::{
     names::NodeName,
     qos::{Durability, QosProfile, Reliability},
     stop::Stopper,
-    transport::{Deliver, EndpointInfo, Guard, Handler, Sink, TopicInfo, Transport, weakest},
+    transport::{Answered, Caller, Deliver, EndpointInfo, Guard, Handler, Sink, TopicInfo, Transport, weakest},
 };
 
 /// Writes what nodes this participant holds.
@@ -219,6 +220,10 @@ impl Transport for DdsTransport {
 
     fn serve(&self, name: &str, type_name: &str, handler: Handler) -> Result<Guard, BusError> {
         service::serve(&self.shared, &self.executor, name, type_name, handler)
+    }
+
+    fn client(&self, name: &str, type_name: &str, answered: Answered) -> Result<Arc<dyn Caller>, BusError> {
+        Ok(Arc::new(DdsCaller::new(&self.shared, &self.executor, name, type_name, answered)?))
     }
 
     fn topics(&self) -> Vec<TopicInfo> {

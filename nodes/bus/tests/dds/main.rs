@@ -9,6 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+mod actions;
 mod claims;
 mod common;
 mod peer;
@@ -81,6 +82,8 @@ fn run_claims() -> ExitCode {
         ("a_wrong_environment_is_refused_with_exit_code_2", claims::wrong_environment),
         ("parameters_over_the_enhanced_mapping", services::enhanced),
         ("parameters_over_the_cyclone_mapping", services::cyclone),
+        ("actions_over_the_enhanced_mapping", actions::enhanced),
+        ("actions_over_the_cyclone_mapping", actions::cyclone),
     ];
     for (name, claim) in claims {
         if filter.as_deref().is_some_and(|filter| !name.contains(filter)) {

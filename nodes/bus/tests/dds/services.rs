@@ -110,7 +110,7 @@ fn check(name: &str, mapping: ServiceMapping) {
 }
 
 /// A node of ros2-client on the domain of this run.
-fn client_node() -> Node {
+pub fn client_node() -> Node {
     let domain = std::env::var("ROS_DOMAIN_ID").expect("the starter sets it");
     let participant = DomainParticipantBuilder::new(domain.parse().expect("a number"))
         .with_only_networks([std::net::Ipv4Addr::LOCALHOST])
