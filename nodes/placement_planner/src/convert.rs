@@ -61,6 +61,7 @@ pub(crate) fn trajectory(header: &Header, trajectory: Trajectory) -> JointTrajec
     let points = trajectory.points.into_iter().map(|point| JointTrajectoryPoint {
         positions: point.positions,
         velocities: point.velocities,
+        accelerations: point.accelerations,
         time_from_start: Duration::from_seconds(point.time_from_start_s),
         ..JointTrajectoryPoint::default()
     });

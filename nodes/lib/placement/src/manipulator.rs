@@ -13,6 +13,9 @@ use thiserror::Error;
 /// Thickness of the slab that stands for the table, metres.
 const SLAB_M: f64 = 0.04;
 
+/// A joint that is slower than this cannot be used, radians or metres per second.
+const SLOWEST: f64 = 1e-3;
+
 /// An endless joint is taken to be no farther than this from 0, radians.
 const FAR: f64 = 1e3;
 
@@ -25,11 +28,15 @@ pub enum ManipulatorError {
     /// The tool link cannot be moved.
     #[error(transparent)]
     Chain(#[from] ChainError),
-    /// A joint of the arm may not move, so no motion of it can be timed.
-    #[error("joint '{joint}' of the arm has the velocity limit 0; give its largest speed in the robot description")]
+    /// A joint of the arm hardly moves, so no motion of it would end in time.
+    #[error(
+        "joint '{joint}' of the arm has the velocity limit {got}; at least {SLOWEST} rad/s or m/s is needed: give its largest speed in the robot description"
+    )]
     Speed {
         /// The joint.
         joint: String,
+        /// Its limit.
+        got: f64,
     },
 }
 
@@ -73,8 +80,9 @@ impl Manipulator {
         settings.release_m = settings.release_m.max(settings.margin_m + ABOVE_MARGIN_M);
         let chain = Chain::new(&robot, &settings.tool_link)?;
         let limits = |entry: usize| robot.driven_joint(entry).limits;
-        if let Some(&still) = chain.entries.iter().find(|&&entry| limits(entry).velocity == 0.0) {
-            return Err(ManipulatorError::Speed { joint: robot.driven_joint(still).name.clone() });
+        if let Some(&still) = chain.entries.iter().find(|&&entry| limits(entry).velocity < SLOWEST) {
+            let joint = robot.driven_joint(still).name.clone();
+            return Err(ManipulatorError::Speed { joint, got: limits(still).velocity });
         }
         let model = match exclusions {
             Some(exclusions) => CollisionModel::new(&robot, exclusions),
@@ -157,12 +165,6 @@ impl Cell<'_> {
     /// Whether nothing touches in a configuration.
     pub fn is_free(&self, q: &[f64], checker: &mut Checker) -> bool {
         checker.is_free(q, &self.world, self.manipulator.settings.margin_m)
-    }
-
-    /// Whether nothing touches on the straight way between two configurations; proven, nothing is stepped over.
-    pub fn way_is_free(&self, from: &[f64], to: &[f64], checker: &mut Checker) -> bool {
-        let settings = SweepSettings { margin: self.manipulator.settings.margin_m, ..SweepSettings::default() };
-        checker.way_is_free(from, to, &self.world, &settings)
     }
 
     /// What touches in a configuration.

@@ -6,7 +6,7 @@ use crate::losses::{LossBatch, placement_optima};
 use crate::manipulator::{Manipulator, ManipulatorError};
 use crate::reach::ReachMap;
 use crate::trajectory::Trajectory;
-use crate::{MotionSettings, motion, trajectory};
+use crate::{MotionSettings, motion};
 use scene::{Field, Grid, Point, Rbf, Scene};
 
 /// Cells per axis of the maps.
@@ -185,8 +185,8 @@ impl Task<'_> {
             if tried.iter().any(|tried| tried.distance(at_m) < APART_M) {
                 continue;
             }
-            if let Some(motion) = motion::plan(access, current, at_m) {
-                plan.trajectory = trajectory::time(access.cell.manipulator, &motion);
+            if let Some(trajectory) = motion::plan(access, current, at_m) {
+                plan.trajectory = trajectory;
                 plan.outcome = PlanOutcome::Planned;
                 plan.robust_placement_m = Some(at_m);
                 plan.robust_cvar_m = cvar_m;
