@@ -53,6 +53,25 @@ fn leaves_occupied_cells_out() {
     }
 }
 
+/// The mixture written out: (1 − ε) p + ε of every placement, p relative to a uniform one.
+#[test]
+fn placements_at_random_are_mixed_in() {
+    let lesson = lesson(4, 5, &Random(3).l1_sphere(14), 4);
+    let w = Random(9).l1_sphere(14);
+    let all = placements(&lesson, 60.0);
+    let grid = Grid::midpoints(32);
+    let one = |placement: &Placement<'_>| PlacementLikelihood::new(14, &[*placement], &grid).value(&w).exp();
+    for rate in [1e-6, 0.1, 0.9] {
+        let likelihood = PlacementLikelihood::new(14, &all, &grid).with_wrong_rate(rate).expect("in range");
+        let want: f64 = all.iter().map(|placement| ((1.0 - rate) * one(placement) + rate).ln()).sum();
+        let got = likelihood.value(&w);
+        assert!((got - want).abs() < 1e-9 * (1.0 + want.abs()), "{rate}: {got} vs {want}");
+    }
+    for rate in [1.0, -0.1, f64::NAN] {
+        assert!(PlacementLikelihood::new(14, &all, &grid).with_wrong_rate(rate).is_err());
+    }
+}
+
 #[test]
 fn a_table_without_objects_is_fine() {
     let scene = table(&[], 0.04);
@@ -66,13 +85,15 @@ fn a_table_without_objects_is_fine() {
 proptest! {
     #[test]
     fn gradient_is_the_derivative_and_the_value_is_concave(
-        seed in 0_u64..1000, n in 1_usize..4, n_objects in 0_usize..6, beta in 1.0..400.0_f64,
+        seed in 0_u64..1000, n in 1_usize..4, n_objects in 0_usize..6, beta in 1.0..400.0_f64, wrong in 0..3_usize,
     ) {
+        let wrong_rate = [0.0, 0.02, 0.5][wrong];
         let features = n_objects + 9;
         let mut random = Random(seed);
         let (w, v) = (random.l1_sphere(features), random.l1_sphere(features));
         let lesson = lesson(n, n_objects, &v, seed);
         let likelihood = PlacementLikelihood::new(features, &placements(&lesson, beta), &Grid::midpoints(20));
+        let likelihood = likelihood.with_wrong_rate(wrong_rate).expect("in range");
         let mut gradient = vec![0.0; features];
         let value = likelihood.value_and_gradient(&w, &mut gradient);
         prop_assert!((value - likelihood.value(&w)).abs() < 1e-12 * (1.0 + value.abs()));
@@ -85,6 +106,9 @@ proptest! {
             };
             let numeric = (shifted(h) - shifted(-h)) / (2.0 * h);
             prop_assert!((gradient[i] - numeric).abs() < 1e-5 * (1.0 + beta), "{i}: {} vs {numeric}", gradient[i]);
+        }
+        if wrong_rate > 0.0 {
+            return Ok(());
         }
         let middle: Vec<f64> = w.iter().zip(&v).map(|(w, v)| 0.5 * (w + v)).collect();
         prop_assert!(likelihood.value(&middle) >= 0.5 * (value + likelihood.value(&v)) - 1e-9);

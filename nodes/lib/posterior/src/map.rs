@@ -36,6 +36,7 @@ pub(crate) fn most_probable(model: &Model<'_>, draws: &Draws) -> Map {
         [term] if on_sphere && model.nonnegative_return.is_none() => {
             if let (TermLikelihood::Placements(placements), Rationality::Fixed(beta)) =
                 (&term.likelihood, term.rationality)
+                && placements.exact().wrong_rate() == 0.0
             {
                 let (weights, log_likelihood) = most_likely(model.prior, beta, placements.exact(), placements.force());
                 return Map { weights, betas: vec![beta], log_likelihood };

@@ -59,6 +59,15 @@ impl PlacementTerm {
         Ok(Self { exact, coarse })
     }
 
+    /// The same with a rate in [0, 1) of placements at random on the free part of the table.
+    ///
+    /// # Errors
+    /// A rate out of range.
+    pub fn with_wrong_rate(self, wrong_rate: f64) -> Result<Self, EvidenceError> {
+        let coarse = self.coarse.map(|coarse| coarse.with_wrong_rate(wrong_rate)).transpose()?;
+        Ok(Self { exact: self.exact.with_wrong_rate(wrong_rate)?, coarse })
+    }
+
     /// Number of weights.
     pub fn n_features(&self) -> usize {
         self.exact.n_features()

@@ -7,7 +7,10 @@ mod common;
 use common::{Random, table};
 use diagnostics::normal_quantile;
 use likelihood::placements::{Placement, PlacementLikelihood};
-use posterior::{Confidence, Demonstration, Lesson, Prior, Rationality, Settings, sample};
+use posterior::{
+    Confidence, Demonstration, Draws, Lesson, Model, Prior, Rationality, Settings, TermLikelihood, draw, evidence_hash,
+    sample,
+};
 use scene::{Grid, Point, Scene};
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
@@ -113,8 +116,9 @@ fn agrees_with_weighted_draws_from_the_prior() {
 }
 
 /// χ² over 16 bins of the ranks of w_0, |w_0| and the log-likelihood of the truth among draws, over worlds drawn from the
-/// prior with data drawn from the likelihood at `beta`, sampled as if it were `assumed_beta`.
-fn calibration(worlds: u64, beta: f64, assumed_beta: f64) -> [f64; 3] {
+/// prior with data drawn from the likelihood at `beta` and a rate of placements at random, sampled as if these were `assumed`.
+fn calibration(worlds: u64, (beta, wrong_rate): (f64, f64), assumed: (f64, f64)) -> [f64; 3] {
+    let (assumed_beta, assumed_rate) = assumed;
     const SIDE: usize = 32;
     const KEPT: usize = 63;
     let one = |world: u64| -> [usize; 3] {
@@ -126,6 +130,8 @@ fn calibration(worlds: u64, beta: f64, assumed_beta: f64) -> [f64; 3] {
                 let mut coordinate = || 0.1 + 0.8 * random.uniform();
                 let positions = [(coordinate(), coordinate()), (coordinate(), coordinate())];
                 let scene = table(&positions, 0.05);
+                // At random: all placements equally good.
+                let beta = if wrong_rate > 0.0 && random.uniform() < wrong_rate { 0.0 } else { beta };
                 let placement = draw_placement(&scene, &grid, &w, beta, &mut random);
                 Demonstration { id: i.to_string(), scene, placement, confidence: Confidence::Sure }
             })
@@ -139,8 +145,9 @@ fn calibration(worlds: u64, beta: f64, assumed_beta: f64) -> [f64; 3] {
             ..Settings::default()
         };
         let lesson = Lesson::new(&demonstrations[0].scene);
-        let draws = sample(&settings, world, &lesson, &demonstrations).expect("draws");
-        let truth = PlacementLikelihood::new(11, &common::placements(&demonstrations, assumed_beta), &grid).value(&w);
+        let draws = draws(&settings, world, &lesson, &demonstrations, assumed_rate);
+        let truth = PlacementLikelihood::new(11, &common::placements(&demonstrations, assumed_beta), &grid);
+        let truth = truth.with_wrong_rate(assumed_rate).expect("in range").value(&w);
         let first = draws.feature(0);
         let rank = |draws: &mut dyn Iterator<Item = f64>, truth: f64| draws.step_by(4).filter(|x| *x < truth).count();
         [
@@ -165,6 +172,17 @@ fn calibration(worlds: u64, beta: f64, assumed_beta: f64) -> [f64; 3] {
     })
 }
 
+/// As [`sample`], with a rate of placements at random.
+fn draws(settings: &Settings, seed: u64, lesson: &Lesson, demonstrations: &[Demonstration], wrong_rate: f64) -> Draws {
+    let mut term = settings.placements(lesson, demonstrations).expect("good placements");
+    if let TermLikelihood::Placements(placements) = term.likelihood {
+        term.likelihood = TermLikelihood::Placements(placements.with_wrong_rate(wrong_rate).expect("in range"));
+    }
+    let (n_features, prior) = (lesson.n_features(), settings.prior);
+    let model = Model { n_features, prior, nonnegative_return: None, terms: vec![term] };
+    draw(&model, &settings.run(), seed, &evidence_hash(demonstrations)).expect("draws")
+}
+
 /// A free grid point, drawn from the softmax of β R.
 fn draw_placement(scene: &Scene, grid: &Grid, w: &[f64], beta: f64, random: &mut Random) -> Point {
     let field = scene::Field::new(&scene::Rbf::new(scene), grid, Some(scene));
@@ -183,14 +201,23 @@ fn draw_placement(scene: &Scene, grid: &Grid, w: &[f64], beta: f64, random: &mut
 #[test]
 fn ranks_of_the_truth_are_uniform() {
     // The 99.9 % quantile of χ² with 15 degrees of freedom.
-    for (statistic, chi_squared) in ["w_0", "|w_0|", "log-likelihood"].iter().zip(calibration(320, 50.0, 50.0)) {
-        assert!(chi_squared < 37.7, "{statistic}: {chi_squared}");
+    for rate in [0.0, 0.3] {
+        let model = (50.0, rate);
+        for (statistic, chi_squared) in ["w_0", "|w_0|", "log-likelihood"].iter().zip(calibration(320, model, model)) {
+            assert!(chi_squared < 37.7, "rate {rate}, {statistic}: {chi_squared}");
+        }
     }
 }
 
 #[test]
 fn a_wrong_beta_shows_in_the_rank_of_the_log_likelihood() {
-    let [_, _, log_likelihood] = calibration(160, 50.0, 100.0);
+    let [_, _, log_likelihood] = calibration(160, (50.0, 0.0), (100.0, 0.0));
+    assert!(log_likelihood > 37.7, "{log_likelihood}");
+}
+
+#[test]
+fn a_forgotten_rate_of_wrong_placements_shows_too() {
+    let [_, _, log_likelihood] = calibration(160, (50.0, 0.3), (50.0, 0.0));
     assert!(log_likelihood > 37.7, "{log_likelihood}");
 }
 

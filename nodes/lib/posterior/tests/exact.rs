@@ -4,10 +4,12 @@
 mod support;
 
 use diagnostics::Series;
-use likelihood::actions::ActionLikelihood;
+use likelihood::actions::{ActionLikelihood, Choice, without_duplicates};
 use likelihood::preferences::{AnswerModel, PreferenceLikelihood};
+use mdp::worlds::GridWorld;
+use mdp::{Solver, rollout};
 use posterior::{Draws, EvidenceKind, Model, Prior, Rationality, Run, Term, TermLikelihood, draw};
-use support::{answers, generator, grid, judged, l2_sphere, taken};
+use support::{answers, generator, grid, judged, l1_sphere, l2_sphere, taken};
 
 const BETA: f64 = 4.0;
 
@@ -154,6 +156,29 @@ fn actions_and_critiques() {
                 let model = one_term(kind, TermLikelihood::Actions(likelihood), rationality, prior);
                 agree(&format!("{kind:?}, {prior:?}, {rationality:?}"), &model);
             }
+        }
+    }
+}
+
+/// Someone perfect shows a grid world of section 6.5, and nothing is known of how rational they are: the rationality grows until
+/// the likelihood is a table with walls around it.
+#[test]
+fn perfect_demonstrations_by_someone_of_unknown_rationality() {
+    for world in 0..3 {
+        let mut generator = generator(82, world);
+        let mdp = GridWorld::random(6, 6, 2, &mut generator).mdp().expect("a good world");
+        let w = l1_sphere(2, &mut generator);
+        let optimal = Solver::new(&mdp).solve(&w).indifferent_policy();
+        let mut choices = Vec::new();
+        for start in [0, 1] {
+            let steps = rollout(&mdp, &optimal, start, 20, &mut generator).expect("a policy of this world");
+            choices.extend(steps.into_iter().map(|(state, action)| Choice::taken(state, action)));
+        }
+        for shown in [choices.clone(), without_duplicates(&choices)] {
+            let likelihood = TermLikelihood::Actions(ActionLikelihood::new(&mdp, shown).expect("good choices"));
+            let unknown = Rationality::Learned { median: 50.0, log_sd: 2.0 };
+            let model = one_term(EvidenceKind::Actions, likelihood, unknown, Prior::L1Sphere);
+            agree(&format!("perfect demonstrations, world {world}"), &model);
         }
     }
 }

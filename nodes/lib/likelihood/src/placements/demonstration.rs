@@ -74,6 +74,12 @@ pub enum EvidenceError {
         /// Of its scene.
         scene: String,
     },
+    /// A rate of placements at random that is none.
+    #[error("the rate of wrong placements is {got}, but must be at least 0 and below 1")]
+    WrongRate {
+        /// Got.
+        got: f64,
+    },
     /// See [`MAX_DEMONSTRATIONS`].
     #[error("{got} demonstrations, but at most {MAX_DEMONSTRATIONS} are supported")]
     TooMany {
@@ -107,7 +113,7 @@ impl Lesson {
     /// spot (people are a few millimetres off), but not off the table.
     ///
     /// # Errors
-    /// Everything of [`EvidenceError`] but `NoFreePlace` and `TooMany`.
+    /// Everything of [`EvidenceError`] but `NoFreePlace`, `WrongRate` and `TooMany`.
     pub fn check(&self, demonstration: &Demonstration) -> Result<(), EvidenceError> {
         let id = || demonstration.id.clone();
         let scene = &demonstration.scene;

@@ -42,12 +42,27 @@ impl Scratch {
 #[inline(always)]
 pub(super) fn value(likelihood: &PlacementLikelihood, w: &[f64], scratch: &mut Scratch) -> f64 {
     fixed_rewards(likelihood, w, scratch);
-    let mut value = inner(&likelihood.shown, w);
-    for cells in &likelihood.cells {
+    let wrong_rate = likelihood.wrong_rate;
+    let mut value = if wrong_rate > 0.0 { 0.0 } else { inner(&likelihood.shown, w) };
+    for (cells, shown) in likelihood.cells.iter().zip(likelihood.shown_each.chunks_exact(likelihood.n_features)) {
         let (log_sum, _) = exponentials(cells, w, scratch);
-        value -= log_sum - cells.log_n_free;
+        let log_mean = log_sum - cells.log_n_free;
+        if wrong_rate > 0.0 {
+            value += mixed(inner(shown, w) - log_mean, wrong_rate).0;
+        } else {
+            value -= log_mean;
+        }
     }
     value
+}
+
+/// log((1 − ε) p + ε), p the probability relative to a uniform placement, and the chance that the placement is not at random.
+#[inline(always)]
+fn mixed(log_p: f64, wrong_rate: f64) -> (f64, f64) {
+    let (meant, random) = (libm::log1p(-wrong_rate) + log_p, libm::log(wrong_rate));
+    let most = if meant > random { meant } else { random };
+    let log_sum = most + libm::log(libm::exp(meant - most) + libm::exp(random - most));
+    (log_sum, libm::exp(meant - log_sum))
 }
 
 #[inline(always)]
@@ -62,12 +77,28 @@ pub(super) fn value_and_gradient<S: Simd>(
     let side = fixed.side();
     fixed_rewards(likelihood, w, scratch);
     scratch.visits.fill([0.0; LANES]);
-    gradient.copy_from_slice(&likelihood.shown);
-    let mut value = inner(&likelihood.shown, w);
-    for cells in &likelihood.cells {
+    let wrong_rate = likelihood.wrong_rate;
+    let mut value = 0.0;
+    if wrong_rate > 0.0 {
+        gradient.fill(0.0);
+    } else {
+        gradient.copy_from_slice(&likelihood.shown);
+        value = inner(&likelihood.shown, w);
+    }
+    for (cells, shown) in likelihood.cells.iter().zip(likelihood.shown_each.chunks_exact(likelihood.n_features)) {
         let (log_sum, sum) = exponentials(cells, w, scratch);
-        value -= log_sum - cells.log_n_free;
-        let scale = cells.factor / sum;
+        let log_mean = log_sum - cells.log_n_free;
+        let mut scale = cells.factor / sum;
+        if wrong_rate > 0.0 {
+            let (log_p, meant) = mixed(inner(shown, w) - log_mean, wrong_rate);
+            value += log_p;
+            scale *= meant;
+            for (g, shown) in gradient.iter_mut().zip(shown) {
+                *g += meant * shown;
+            }
+        } else {
+            value -= log_mean;
+        }
         for (visits, p) in scratch.visits.as_flattened_mut().iter_mut().zip(scratch.cells.as_flattened()) {
             *visits += scale * p;
         }

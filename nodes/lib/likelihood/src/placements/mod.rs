@@ -1,6 +1,7 @@
 //! The likelihood of placements under a softmax over the table (method notes section 5):
 //! log P(x_d | C_d, θ) = f_d R_θ(x_d) − log mean over the free cells c of exp(f_d R_θ(c)), with θ = β w and f_d the factor of
-//! demonstration d.
+//! demonstration d. With a rate ε of placements at random, P becomes (1 − ε) P + ε/n_free, here (1 − ε) P + ε, since P is
+//! relative to a uniform placement; then the likelihood is no longer concave.
 
 mod cells;
 mod curvature;
@@ -21,7 +22,8 @@ use scene::Grid;
 /// Cells per axis of a grid that a likelihood can be normalised on.
 pub const GRID_SIDE_RANGE: RangeInclusive<usize> = 4..=256;
 
-/// Log-likelihood of the placements of a lesson as a function of the weights. A concave function of w.
+/// Log-likelihood of the placements of a lesson as a function of the weights. A concave function of w where no placement is
+/// at random.
 #[derive(Debug, Clone)]
 pub struct PlacementLikelihood {
     n_features: usize,
@@ -29,6 +31,10 @@ pub struct PlacementLikelihood {
     cells: Vec<Cells>,
     /// Σ f_d φ(x_d).
     shown: Vec<f64>,
+    /// f_d φ(x_d), one row a placement.
+    shown_each: Vec<f64>,
+    /// ε.
+    wrong_rate: f64,
     arch: Arch,
 }
 
@@ -40,12 +46,32 @@ impl PlacementLikelihood {
     pub fn new(n_features: usize, placements: &[Placement<'_>], grid: &Grid) -> Self {
         let cells = placements.iter().map(|placement| Cells::new(placement, grid)).collect();
         let mut shown = vec![0.0; n_features];
+        let mut shown_each = Vec::with_capacity(n_features * placements.len());
         for placement in placements {
             for (shown, feature) in shown.iter_mut().zip(placement.features()) {
                 *shown += placement.factor * feature;
+                shown_each.push(placement.factor * feature);
             }
         }
-        Self { n_features, fixed: FixedTable::new(grid), cells, shown, arch: Arch::new() }
+        let fixed = FixedTable::new(grid);
+        Self { n_features, fixed, cells, shown, shown_each, wrong_rate: 0.0, arch: Arch::new() }
+    }
+
+    /// The same with a rate ε in [0, 1) of placements at random, uniform over the free cells.
+    ///
+    /// # Errors
+    /// A rate out of range.
+    pub fn with_wrong_rate(mut self, wrong_rate: f64) -> Result<Self, EvidenceError> {
+        if !(0.0..1.0).contains(&wrong_rate) {
+            return Err(EvidenceError::WrongRate { got: wrong_rate });
+        }
+        self.wrong_rate = wrong_rate;
+        Ok(self)
+    }
+
+    /// Rate ε of placements at random.
+    pub fn wrong_rate(&self) -> f64 {
+        self.wrong_rate
     }
 
     /// The same likelihood normalised over cells `factor` times as wide, each counted by how much of it is free. `None`
@@ -56,7 +82,8 @@ impl PlacementLikelihood {
         }
         let coarse = Grid::midpoints(grid.side() / factor);
         let cells = placements.iter().map(|placement| Cells::coarsened(placement, grid, &coarse)).collect();
-        Some(Self { cells, fixed: FixedTable::new(&coarse), shown: self.shown.clone(), ..*self })
+        let (shown, shown_each) = (self.shown.clone(), self.shown_each.clone());
+        Some(Self { cells, fixed: FixedTable::new(&coarse), shown, shown_each, ..*self })
     }
 
     /// Number of weights.
@@ -79,7 +106,8 @@ impl PlacementLikelihood {
         self.value_with(w, &mut self.scratch())
     }
 
-    /// log P(placements | w); its gradient Σ f_d (φ(x_d) − E_d φ) goes to `gradient`.
+    /// log P(placements | w); its gradient Σ f_d (φ(x_d) − E_d φ), each d times its chance of not being at random, goes to
+    /// `gradient`.
     pub fn value_and_gradient(&self, w: &[f64], gradient: &mut [f64]) -> f64 {
         self.value_and_gradient_with(w, gradient, &mut self.scratch())
     }
@@ -99,7 +127,7 @@ impl PlacementLikelihood {
         self.arch.dispatch(ValueAndGradient { likelihood: self, w, gradient, scratch })
     }
 
-    /// Fisher information −∇² = Σ f_d² Cov_d φ, row-major and symmetric.
+    /// Fisher information −∇² = Σ f_d² Cov_d φ, row-major and symmetric; as if no placement were at random.
     pub fn information(&self, w: &[f64], scratch: &mut Scratch) -> Vec<f64> {
         self.arch.dispatch(Information { likelihood: self, w, scratch })
     }
