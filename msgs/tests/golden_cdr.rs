@@ -70,7 +70,7 @@ where
 fn every_message_agrees_with_an_independent_implementation() {
     let golden = Golden::read();
     let mut seen = BTreeSet::new();
-    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 142] = [
+    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 143] = [
         check::<msg::ActionDemonstration>,
         check::<msg::Candidates>,
         check::<msg::CritiqueSegment>,
@@ -85,6 +85,7 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<msg::NodeSettings>,
         check::<msg::PerformanceBounds>,
         check::<msg::PlacementBound>,
+        check::<msg::PlacementCandidate>,
         check::<msg::PlacementDemonstration>,
         check::<msg::PlacementPlan>,
         check::<msg::PlacementQuery>,

@@ -44,6 +44,7 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/NodeSettings",
     "apprentice_msgs/msg/PerformanceBounds",
     "apprentice_msgs/msg/PlacementBound",
+    "apprentice_msgs/msg/PlacementCandidate",
     "apprentice_msgs/msg/PlacementDemonstration",
     "apprentice_msgs/msg/PlacementPlan",
     "apprentice_msgs/msg/PlacementQuery",
@@ -424,6 +425,21 @@ float64 rhat
 uint64 index                     # 1-based order statistic used; 0 without a bound
 uint64 needed                    # effective samples a bound would take
 "#),
+    ("apprentice_msgs/msg/PlacementCandidate", r#"# A place that was considered for the target, and what became of it.
+uint8 CHOSEN=0
+uint8 UNREACHABLE=1              # the arm cannot put the target there
+uint8 NO_PATH=2                  # the arm found no way there
+uint8 NEXT_BEST=3                # it could be used, but a better one was
+
+geometry_msgs/Point position     # metres in the table's frame
+float64 mean_reward              # over the draws
+float64 probability_best         # share of the draws whose own best place is within 3 cm
+float64 var_m                    # VaR of the distance to each draw's own best place
+float64 cvar_m                   # CVaR of it
+float64 clearance_m              # from the target's outline to the nearest object, or edge of the table
+uint8 verdict
+string reason                    # the same in words
+"#),
     ("apprentice_msgs/msg/PlacementDemonstration", r#"# A person shows where the target belongs in a scene. Idempotent: the same id with the same content counts once.
 uint8 CONFIDENCE_SURE=0
 uint8 CONFIDENCE_FAIRLY=1
@@ -457,10 +473,12 @@ sensor_msgs/JointState start     # where the arm stood; empty without a robot
 uint8 outcome
 string reason
 geometry_msgs/Point map_placement      # best under the MAP weights, metres
-geometry_msgs/Point robust_placement   # smallest CVaR of the distance to the person's placement
+geometry_msgs/Point robust_placement   # what the planner's choice prefers; where the trajectory ends
 float64 map_cvar_m
 float64 robust_cvar_m
 float64 alpha
+string choice                    # map, mean, var, cvar or most_likely: which place is taken of those in reach
+PlacementCandidate[] candidates  # best first, those out of reach among them
 bool inside_bound                # the lesson is taught: the robot may move
 trajectory_msgs/JointTrajectory trajectory
 uint32 map_side                  # the two maps are map_side x map_side cells, row-major, first row at y = 0
@@ -527,7 +545,7 @@ string reason
 uint8 objective                  # as in RobustPolicy
 float64 alpha
 uint64 n_draws
-uint32 chains_used               # as in RobustPolicy
+uint32 draws_used                # as in RobustPolicy
 FrontierPoint[] points           # lambda ascending; empty without any
 uint32 n_states
 uint32 n_actions
@@ -540,7 +558,7 @@ std_msgs/Header header
 string id                        # unique within a session
 uint64 number                    # 1, 2, … within a session: bounds on the sets of a session share delta by it
 string world_id                  # of tabular policies; may be empty when there are none
-uint32 chains_used               # the policies were chosen by the draws of so many first chains: bounds are of the others alone
+uint32 draws_used                # the policies were chosen by so many first draws of each chain: bounds are of the later ones alone
 PolicyToJudge[] policies
 "#),
     ("apprentice_msgs/msg/PolicyToJudge", r#"# A policy, in one of three forms.
@@ -705,8 +723,8 @@ float64 expected_return
 float64 value_at_risk            # alpha of the draws have a larger psi
 float64 conditional_value_at_risk
 uint64 n_draws                   # that it was chosen by
-uint32 chains_used               # their chains, the first of the posterior; the others judge it. 0: all, and none judge it
-uint64 held_out                  # draws of the other chains
+uint32 draws_used                # of each chain, the first; the later ones judge it. 0: all, and none judge it
+uint64 held_out                  # these later draws, of all chains
 float64 held_out_mean            # of psi over these; NaN without them, as are the next four
 float64 held_out_cvar            # of psi over these
 float64 held_out_cvar_low        # confidence interval of it

@@ -419,6 +419,42 @@ impl crate::Message for PlacementBound {
     const TYPE: &'static str = "apprentice_msgs/msg/PlacementBound";
 }
 
+/// A place that was considered for the target, and what became of it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlacementCandidate {
+    /// metres in the table's frame (`geometry_msgs/Point`)
+    pub position: super::geometry_msgs::Point,
+    /// over the draws (`float64`)
+    pub mean_reward: f64,
+    /// share of the draws whose own best place is within 3 cm (`float64`)
+    pub probability_best: f64,
+    /// VaR of the distance to each draw's own best place (`float64`)
+    pub var_m: f64,
+    /// CVaR of it (`float64`)
+    pub cvar_m: f64,
+    /// from the target's outline to the nearest object, or edge of the table (`float64`)
+    pub clearance_m: f64,
+    /// (`uint8`)
+    pub verdict: u8,
+    /// the same in words (`string`)
+    pub reason: std::string::String,
+}
+
+impl PlacementCandidate {
+    /// The constant `CHOSEN`.
+    pub const CHOSEN: u8 = 0;
+    /// the arm cannot put the target there
+    pub const UNREACHABLE: u8 = 1;
+    /// the arm found no way there
+    pub const NO_PATH: u8 = 2;
+    /// it could be used, but a better one was
+    pub const NEXT_BEST: u8 = 3;
+}
+
+impl crate::Message for PlacementCandidate {
+    const TYPE: &'static str = "apprentice_msgs/msg/PlacementCandidate";
+}
+
 /// A person shows where the target belongs in a scene. Idempotent: the same id with the same content counts once.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlacementDemonstration {
@@ -472,7 +508,7 @@ pub struct PlacementPlan {
     pub reason: std::string::String,
     /// best under the MAP weights, metres (`geometry_msgs/Point`)
     pub map_placement: super::geometry_msgs::Point,
-    /// smallest CVaR of the distance to the person's placement (`geometry_msgs/Point`)
+    /// what the planner's choice prefers; where the trajectory ends (`geometry_msgs/Point`)
     pub robust_placement: super::geometry_msgs::Point,
     /// (`float64`)
     pub map_cvar_m: f64,
@@ -480,6 +516,10 @@ pub struct PlacementPlan {
     pub robust_cvar_m: f64,
     /// (`float64`)
     pub alpha: f64,
+    /// map, mean, var, cvar or most_likely: which place is taken of those in reach (`string`)
+    pub choice: std::string::String,
+    /// best first, those out of reach among them (`PlacementCandidate[]`)
+    pub candidates: Vec<super::msg::PlacementCandidate>,
     /// the lesson is taught: the robot may move (`bool`)
     pub inside_bound: bool,
     /// (`trajectory_msgs/JointTrajectory`)
@@ -653,7 +693,7 @@ pub struct PolicyFrontier {
     /// (`uint64`)
     pub n_draws: u64,
     /// as in RobustPolicy (`uint32`)
-    pub chains_used: u32,
+    pub draws_used: u32,
     /// lambda ascending; empty without any (`FrontierPoint[]`)
     pub points: Vec<super::msg::FrontierPoint>,
     /// (`uint32`)
@@ -683,8 +723,8 @@ pub struct PolicySet {
     pub number: u64,
     /// of tabular policies; may be empty when there are none (`string`)
     pub world_id: std::string::String,
-    /// the policies were chosen by the draws of so many first chains: bounds are of the others alone (`uint32`)
-    pub chains_used: u32,
+    /// the policies were chosen by so many first draws of each chain: bounds are of the later ones alone (`uint32`)
+    pub draws_used: u32,
     /// (`PolicyToJudge[]`)
     pub policies: Vec<super::msg::PolicyToJudge>,
 }
@@ -1034,9 +1074,9 @@ pub struct RobustPolicy {
     pub conditional_value_at_risk: f64,
     /// that it was chosen by (`uint64`)
     pub n_draws: u64,
-    /// their chains, the first of the posterior; the others judge it. 0: all, and none judge it (`uint32`)
-    pub chains_used: u32,
-    /// draws of the other chains (`uint64`)
+    /// of each chain, the first; the later ones judge it. 0: all, and none judge it (`uint32`)
+    pub draws_used: u32,
+    /// these later draws, of all chains (`uint64`)
     pub held_out: u64,
     /// of psi over these; NaN without them, as are the next four (`float64`)
     pub held_out_mean: f64,

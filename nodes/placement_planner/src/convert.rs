@@ -2,12 +2,12 @@
 
 use apprentice_msgs::builtin_interfaces::Duration;
 use apprentice_msgs::geometry_msgs::Point as PointMessage;
-use apprentice_msgs::msg::PlacementPlan as PlanMessage;
+use apprentice_msgs::msg::{PlacementCandidate, PlacementPlan as PlanMessage};
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
 use exchange::point_to_message;
-use placement::{CellState, PlanOutcome, Trajectory};
+use placement::{Candidate, CellState, PlanOutcome, Trajectory, Verdict};
 use scene::Point;
 
 /// More joints than this are not taken from one message.
@@ -49,6 +49,24 @@ pub(crate) fn cell(state: CellState) -> u8 {
         CellState::Free => PlanMessage::CELL_FREE,
         CellState::Occupied => PlanMessage::CELL_OCCUPIED,
         CellState::Unreachable => PlanMessage::CELL_UNREACHABLE,
+    }
+}
+
+pub(crate) fn candidate(candidate: Candidate) -> PlacementCandidate {
+    PlacementCandidate {
+        position: point_to_message(candidate.at_m),
+        mean_reward: candidate.mean_reward,
+        probability_best: candidate.probability_best,
+        var_m: candidate.var_m,
+        cvar_m: candidate.cvar_m,
+        clearance_m: candidate.clearance_m,
+        verdict: match candidate.verdict {
+            Verdict::Chosen => PlacementCandidate::CHOSEN,
+            Verdict::Unreachable => PlacementCandidate::UNREACHABLE,
+            Verdict::NoPath => PlacementCandidate::NO_PATH,
+            Verdict::NextBest => PlacementCandidate::NEXT_BEST,
+        },
+        reason: candidate.reason,
     }
 }
 

@@ -184,6 +184,8 @@ impl PlacementPlanner {
             map_cvar_m: plan.map_cvar_m,
             robust_cvar_m: plan.robust_cvar_m,
             alpha: self.settings.alpha,
+            choice: self.settings.choice.clone(),
+            candidates: plan.candidates.into_iter().map(convert::candidate).collect(),
             inside_bound: request.inside_bound,
             trajectory: convert::trajectory(&header, plan.trajectory),
             map_side: u32::try_from(MAP_SIDE).unwrap_or(0),

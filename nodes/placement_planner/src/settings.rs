@@ -10,7 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct Settings {
     /// Seed of the search for motions.
     pub seed: i64,
-    /// The robust placement minimises the CVaR at this level of the distance to the person's placement.
+    /// Which place is taken, of those in reach: `map`, `mean`, `var`, `cvar` or `most_likely`.
+    pub choice: String,
+    /// Level of `var` and `cvar`.
     pub alpha: f64,
     /// Threads; plans do not depend on it. 0: as many as there are cores.
     pub threads: i64,
@@ -33,6 +35,7 @@ impl Default for Settings {
         let motion = MotionSettings::default();
         Self {
             seed: 1,
+            choice: motion.choice.name().to_owned(),
             alpha: 0.95,
             threads: 0,
             tool_link: motion.tool_link,
@@ -55,8 +58,14 @@ impl NodeSettings for Settings {
             range: Range::Integer { min: 0, max: i64::MAX },
         },
         ParameterSpec {
+            name: "choice",
+            about: "which place is taken, of those in reach: the best under the `map` or `mean` reward; the one with the smallest \
+                    `var` or `cvar` of the distance to the person's; or the `most_likely` best",
+            range: Range::Choice(&["map", "mean", "var", "cvar", "most_likely"]),
+        },
+        ParameterSpec {
             name: "alpha",
-            about: "the robust placement has the smallest CVaR at this level of the distance to the person's placement",
+            about: "level of the risk that `var` and `cvar` make small",
             range: Range::Float { min: 0.5, max: 0.999 },
         },
         ParameterSpec {
@@ -114,6 +123,7 @@ impl Settings {
     /// The part of the parameters that is about motion.
     pub(crate) fn motion(&self) -> MotionSettings {
         MotionSettings {
+            choice: self.choice.parse().unwrap_or_default(),
             tool_link: self.tool_link.clone(),
             margin_m: self.margin_m,
             approach_m: self.approach_m,

@@ -4,6 +4,7 @@
 //! of threads. Names that end in `_m` are metres in the table's frame, others normalised coordinates.
 
 mod access;
+mod candidate;
 mod choice;
 mod losses;
 mod manipulator;
@@ -16,6 +17,8 @@ mod tabulated;
 mod tail;
 mod trajectory;
 
+pub use candidate::{Candidate, Verdict};
+pub use choice::{Choice, NEAR_M};
 pub use losses::{LossBatch, SceneLosses, placement_losses, placement_optima};
 pub use manipulator::{Manipulator, ManipulatorError};
 pub use plan::{CellState, MAP_SIDE, PlacementPlan, PlanOutcome, Planner};

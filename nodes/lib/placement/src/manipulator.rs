@@ -4,7 +4,7 @@ use crate::MotionSettings;
 use crate::settings::{ABOVE_MARGIN_M, LEAST_APPROACH_M};
 use arm::{
     AxisGoal, Chain, ChainError, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Obstacle,
-    Placed, Point3, Robot, Solid, SweepSettings, Translation3, UrdfError, Vector3, World, about_z, solve,
+    Placed, Point3, Robot, Solid, Translation3, UrdfError, Vector3, World, about_z, solve,
 };
 use scene::{Object, Point, Scene, Shape};
 use std::sync::Arc;

@@ -1,19 +1,24 @@
 //! The placement to take, the maps that show why, and the motion that gets the target there.
 
 use crate::access::Access;
-use crate::choice::{Ranked, cvar_m, rank, refine};
+use crate::candidate::{Candidate, Verdict, clearance_m};
+use crate::choice::{Judge, Ranked};
 use crate::losses::{LossBatch, placement_optima};
 use crate::manipulator::{Manipulator, ManipulatorError};
 use crate::reach::ReachMap;
 use crate::trajectory::Trajectory;
-use crate::{MotionSettings, motion};
+use crate::{Choice, MotionSettings, motion};
 use scene::{Field, Grid, Point, Rbf, Scene};
 
 /// Cells per axis of the maps.
 pub const MAP_SIDE: usize = 32;
-/// Other places that are tried when no motion leads to the best one.
-const OTHER_PLACES: usize = 4;
-/// Other places keep this distance from those that were tried, metres.
+/// Places that a motion is looked for to, the best first.
+const MOST_TRIED: usize = 5;
+/// Places that are told, those out of reach among them.
+const MOST_CANDIDATES: usize = 8;
+/// Why a place is not taken.
+const OUT_OF_REACH: &str = "out of the arm's reach";
+/// Candidates keep this distance from each other, metres.
 const APART_M: f64 = 0.1;
 
 /// How a plan came out.
@@ -51,12 +56,14 @@ pub struct PlacementPlan {
     pub reason: String,
     /// Best usable placement under the MAP weights; `None` without a free place.
     pub map_placement_m: Option<Point>,
-    /// The usable placement of smallest CVaR_α of the distance to each draw's own best; where the trajectory ends.
+    /// The usable placement that the settings' [`Choice`] prefers; where the trajectory ends.
     pub robust_placement_m: Option<Point>,
     /// CVaR_α of that distance at the MAP placement, metres; `NaN` without one.
     pub map_cvar_m: f64,
     /// And at the robust one.
     pub robust_cvar_m: f64,
+    /// The places that were considered, best first, each with what became of it.
+    pub candidates: Vec<Candidate>,
     /// Empty unless planned.
     pub trajectory: Trajectory,
     /// Mean reward over the draws at the midpoints of [`MAP_SIDE`] × [`MAP_SIDE`] cells, row-major, first row at y = 0.
@@ -109,6 +116,7 @@ impl Planner {
             robust_placement_m: None,
             map_cvar_m: f64::NAN,
             robust_cvar_m: f64::NAN,
+            candidates: Vec::new(),
             trajectory: Trajectory::default(),
             reward_map: mean_rewards(&field, batch),
             cell_state: cells(field.free(), |_| CellState::Free),
@@ -116,7 +124,8 @@ impl Planner {
         let found = placement_optima(std::slice::from_ref(scene), batch).pop().flatten();
         let Some((map_m, optima_m)) = found else { return plan };
         let optima_m = if optima_m.is_empty() { vec![map_m] } else { optima_m };
-        let task = Task { scene, field: &field, batch, alpha, map_m, optima_m: &optima_m };
+        let judge = Judge::new(scene, &optima_m, batch.map_weights, mean_weights(batch), alpha);
+        let task = Task { scene, field: &field, batch, judge, choice: self.settings.choice, map_m };
         let Some(manipulator) = &self.manipulator else {
             task.choose(&mut plan, None);
             plan.outcome = PlanOutcome::NoRobot;
@@ -150,92 +159,153 @@ struct Task<'a> {
     scene: &'a Scene,
     field: &'a Field,
     batch: &'a LossBatch<'a>,
-    alpha: f64,
+    judge: Judge<'a>,
+    choice: Choice,
     map_m: Point,
-    optima_m: &'a [Point],
 }
 
 impl Task<'_> {
     fn finish(&self, plan: &mut PlacementPlan, access: &Access, current: &[f64]) {
         let label = &self.scene.target.label;
         if !plan.cell_state.contains(&CellState::Free) {
+            // Where it would go, if the arm were another.
             self.choose(plan, None);
+            for candidate in &mut plan.candidates {
+                candidate.verdict = Verdict::Unreachable;
+                candidate.reason = OUT_OF_REACH.into();
+            }
             plan.outcome = PlanOutcome::Unreachable;
             plan.reason = format!("the arm reaches none of the free places for '{label}'");
             return;
         }
-        let ranked = self.choose(plan, Some(access));
+        self.choose(plan, Some(access));
         let moved = if plan.map_placement_m == Some(self.map_m) {
             String::new()
         } else {
             format!("; the best place, {}, is out of the arm's reach, so the next best counts", words(self.map_m))
         };
+        plan.outcome = PlanOutcome::NoPath;
         if let Some((a, b)) = access.cell.contact(current) {
-            plan.outcome = PlanOutcome::NoPath;
             plan.reason = format!("where the arm is now, '{a}' touches '{b}'; move it away by hand");
             return;
         }
-        let best = plan.robust_placement_m.expect("a cell is free");
         let mut tried: Vec<Point> = Vec::new();
-        let others = ranked.iter().map(|ranked| (ranked.at_m, ranked.cvar_m));
-        for (at_m, cvar_m) in std::iter::once((best, plan.robust_cvar_m)).chain(others) {
-            if tried.len() > OTHER_PLACES {
-                break;
-            }
-            if tried.iter().any(|tried| tried.distance(at_m) < APART_M) {
+        for candidate in plan.candidates.iter_mut().filter(|one| one.verdict == Verdict::NextBest).take(MOST_TRIED) {
+            let Some(trajectory) = motion::plan(access, current, candidate.at_m) else {
+                candidate.verdict = Verdict::NoPath;
+                candidate.reason = "no collision-free motion leads there".into();
+                tried.push(candidate.at_m);
                 continue;
-            }
-            if let Some(trajectory) = motion::plan(access, current, at_m) {
-                plan.trajectory = trajectory;
-                plan.outcome = PlanOutcome::Planned;
-                plan.robust_placement_m = Some(at_m);
-                plan.robust_cvar_m = cvar_m;
-                let seconds = plan.trajectory.points.last().map_or(0.0, |point| point.time_from_start_s);
-                let detour = match tried.first() {
-                    Some(&first) => format!("; no motion to {} was found", words(first)),
-                    None => String::new(),
-                };
-                plan.reason = format!("the arm puts '{label}' at {} in {seconds:.1} s{moved}{detour}", words(at_m));
-                return;
-            }
-            tried.push(at_m);
+            };
+            candidate.verdict = Verdict::Chosen;
+            candidate.reason = "taken".into();
+            plan.trajectory = trajectory;
+            plan.outcome = PlanOutcome::Planned;
+            plan.robust_placement_m = Some(candidate.at_m);
+            plan.robust_cvar_m = candidate.cvar_m;
+            let seconds = plan.trajectory.points.last().map_or(0.0, |point| point.time_from_start_s);
+            let detour = match tried.first() {
+                Some(&first) => format!("; no motion to {} was found", words(first)),
+                None => String::new(),
+            };
+            let at = words(candidate.at_m);
+            plan.reason = format!("the arm puts '{label}' at {at} in {seconds:.1} s{moved}{detour}");
+            return;
         }
-        plan.outcome = PlanOutcome::NoPath;
+        let best = tried.first().copied().unwrap_or(self.map_m);
         plan.reason = format!(
             "no collision-free motion to {} was found, nor to {} other places{moved}",
             words(best),
-            tried.len() - 1
+            tried.len().saturating_sub(1)
         );
     }
 
-    /// Sets both placements and returns the usable cells by CVaR. Without an arm every free place is usable.
-    fn choose(&self, plan: &mut PlacementPlan, access: Option<&Access>) -> Vec<Ranked> {
+    /// Sets both placements and the candidates. Without an arm every free place is usable.
+    fn choose(&self, plan: &mut PlacementPlan, access: Option<&Access>) {
         let occupied = self.scene.occupied();
         let usable =
             |at_m: Point| occupied.is_free(at_m) && access.is_none_or(|access| access.configuration(at_m).is_some());
         let grid = self.field.grid();
-        let open: Vec<usize> =
-            (0..grid.n()).filter(|&i| self.field.free()[i] && access.is_none_or(|access| access.is_open(i))).collect();
+        let free: Vec<usize> = (0..grid.n()).filter(|&i| self.field.free()[i]).collect();
+        let is_open = |i: usize| access.is_none_or(|access| access.is_open(i));
+        let open: Vec<usize> = free.iter().copied().filter(|&i| is_open(i)).collect();
         let map_m = if usable(self.map_m) { Some(self.map_m) } else { self.best_cell(&open) };
         let mut room = Vec::new();
         plan.map_placement_m = map_m;
-        plan.map_cvar_m = map_m.map_or(f64::NAN, |at_m| cvar_m(at_m, self.optima_m, self.alpha, &mut room));
-        let ranked = rank(open.iter().map(|&i| self.scene.metres(grid.at(i))), self.optima_m, self.alpha);
-        // The MAP placement comes first among equals, so that the robust one is never worse.
-        let starts = map_m.map(|at_m| Ranked { at_m, cvar_m: plan.map_cvar_m });
-        let first = ranked.first().map(|r| Ranked { at_m: r.at_m, cvar_m: r.cvar_m });
-        let best = match (starts, first) {
-            (Some(map), Some(cell)) => Some(if cell.cvar_m < map.cvar_m { cell } else { map }),
+        plan.map_cvar_m = map_m.map_or(f64::NAN, |at_m| self.judge.cvar_m(at_m, &mut room));
+        let ranked = self.judge.rank(self.choice, free.iter().map(|&i| self.scene.metres(grid.at(i))));
+        let first = ranked.iter().find(|ranked| self.is_open_at(access, ranked.at_m)).copied();
+        // The MAP placement comes first among equals, so that the chosen one is never worse.
+        let map = map_m.map(|at_m| Ranked { at_m, cost: self.judge.cost(self.choice, at_m, &mut room) });
+        let best = match (map, first) {
+            (Some(map), Some(cell)) => Some(if cell.cost < map.cost { cell } else { map }),
             (one, other) => one.or(other),
         };
-        if let Some(best) = best {
+        let best = best.map(|best| {
             let side = grid.side() as f64;
             let cell_m = Point::new(self.scene.width_m / side, self.scene.depth_m / side);
-            let best = refine(best, self.optima_m, self.alpha, cell_m, usable);
+            self.judge.refine(self.choice, best, cell_m, usable)
+        });
+        if let Some(best) = best {
             plan.robust_placement_m = Some(best.at_m);
-            plan.robust_cvar_m = best.cvar_m;
+            plan.robust_cvar_m = self.judge.cvar_m(best.at_m, &mut room);
         }
-        ranked
+        plan.candidates = self.candidates(access, best, &ranked);
+    }
+
+    /// The best place, then others by cost that keep apart; those that are better but out of reach among them.
+    fn candidates(&self, access: Option<&Access>, best: Option<Ranked>, ranked: &[Ranked]) -> Vec<Candidate> {
+        let mut room = Vec::new();
+        let mut found: Vec<Candidate> = Vec::new();
+        let mut usable = 0;
+        let mut all: Vec<Ranked> = best.into_iter().collect();
+        // Cells are ranked already; the best place goes before the first that costs as much.
+        let (better, others): (Vec<Ranked>, Vec<Ranked>) =
+            ranked.iter().copied().partition(|cell| best.is_some_and(|best| cell.cost < best.cost));
+        all.splice(0..0, better);
+        all.extend(others);
+        for Ranked { at_m, .. } in all {
+            let is_best = best.is_some_and(|best| best.at_m == at_m);
+            let reachable = is_best || self.is_open_at(access, at_m);
+            // What can be used keeps apart from what can be used, and the rest from the rest: the place that the person
+            // would like best is told although one beside it is taken.
+            let is_near = |one: &Candidate| {
+                one.at_m.distance(at_m) < APART_M && (one.verdict != Verdict::Unreachable) == reachable
+            };
+            let near_best = reachable && !is_best && best.is_some_and(|best| best.at_m.distance(at_m) < APART_M);
+            if near_best || (!is_best && found.iter().any(is_near)) {
+                continue;
+            }
+            // Room is kept for the best place, which always stands in the list.
+            let wait = best.is_some() && usable == 0 && !reachable && found.len() + 1 == MOST_CANDIDATES;
+            if wait {
+                continue;
+            }
+            let figures = self.judge.figures(at_m, &mut room);
+            found.push(Candidate {
+                at_m,
+                mean_reward: figures.mean_reward,
+                probability_best: figures.probability_best,
+                var_m: figures.var_m,
+                cvar_m: figures.cvar_m,
+                clearance_m: clearance_m(self.scene, at_m),
+                verdict: if reachable { Verdict::NextBest } else { Verdict::Unreachable },
+                reason: if reachable { "a better one was taken" } else { OUT_OF_REACH }.into(),
+            });
+            usable += usize::from(reachable);
+            if found.len() == MOST_CANDIDATES || usable == MOST_TRIED {
+                break;
+            }
+        }
+        found
+    }
+
+    /// Whether the cell around a point can be used.
+    fn is_open_at(&self, access: Option<&Access>, at_m: Point) -> bool {
+        let Some(access) = access else { return true };
+        let (at, side) = (self.scene.normalised(at_m), self.field.grid().side());
+        let index = |v: f64| ((v * side as f64) as usize).min(side - 1);
+        access.is_open(index(at.y) * side + index(at.x))
     }
 
     /// The cell of largest MAP reward, the first of equals.
@@ -256,20 +326,25 @@ fn cells(free: &[bool], of_free: impl Fn(usize) -> CellState) -> Vec<CellState> 
     free.iter().enumerate().map(state).collect()
 }
 
-/// The reward is linear in the weights: its mean is the reward of the mean.
-fn mean_rewards(field: &Field, batch: &LossBatch) -> Vec<f32> {
+/// The mean of the draws; the MAP weights without any.
+fn mean_weights(batch: &LossBatch) -> Vec<f64> {
     let k = batch.n_features;
     let n = batch.draws.len() / k;
-    let mut mean = batch.map_weights.to_vec();
-    if n > 0 {
-        mean.fill(0.0);
-        for draw in batch.draws.chunks_exact(k) {
-            for (mean, &w) in mean.iter_mut().zip(draw) {
-                *mean += f64::from(w) / n as f64;
-            }
+    if n == 0 {
+        return batch.map_weights.to_vec();
+    }
+    let mut mean = vec![0.0; k];
+    for draw in batch.draws.chunks_exact(k) {
+        for (mean, &w) in mean.iter_mut().zip(draw) {
+            *mean += f64::from(w) / n as f64;
         }
     }
+    mean
+}
+
+/// The reward is linear in the weights: its mean is the reward of the mean.
+fn mean_rewards(field: &Field, batch: &LossBatch) -> Vec<f32> {
     let mut rewards = vec![0.0; field.grid().n()];
-    field.rewards(&mean, &mut rewards);
+    field.rewards(&mean_weights(batch), &mut rewards);
     rewards.into_iter().map(|reward| reward as f32).collect()
 }

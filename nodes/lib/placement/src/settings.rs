@@ -1,8 +1,12 @@
 //! How the arm is to move.
 
+use crate::Choice;
+
 /// What a plan may assume of the arm and how careful it is to be.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionSettings {
+    /// Which place is taken, of those that the arm can reach.
+    pub choice: Choice,
     /// The link whose origin is between the fingertips and whose z axis points out of the hand.
     pub tool_link: String,
     /// Things nearer than this count as touching, metres.
@@ -28,6 +32,7 @@ pub struct MotionSettings {
 impl Default for MotionSettings {
     fn default() -> Self {
         Self {
+            choice: Choice::default(),
             tool_link: "tool0".into(),
             margin_m: 0.003,
             release_m: 0.006,

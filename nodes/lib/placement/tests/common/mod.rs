@@ -1,4 +1,5 @@
 //! Scenes and posteriors that the tests share.
+#![allow(dead_code, reason = "not every test uses all of it")]
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
