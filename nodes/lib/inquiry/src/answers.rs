@@ -1,7 +1,7 @@
 //! How probable each answer to a question is under each draw.
 
-use crate::InquiryError;
 use crate::error::{check_length, check_numbers};
+use crate::{Belief, InquiryError};
 
 /// Steps of a critique, at most: it has 2^steps answers.
 pub const MAX_STEPS: usize = 12;
@@ -52,6 +52,30 @@ impl Answers {
             return Err(InquiryError::Steps { got, most: MAX_STEPS });
         }
         Ok(Self { n_draws, kind: Kind::Steps(good) })
+    }
+
+    /// Some answers out of very many, such as places: `densities` has one row of n per answer that was drawn from what the belief
+    /// expects, the probability density of that answer under each draw. Each then stands for an equal share of all answers
+    /// (importance sampling): expectations over answers are right but for the drawing, whatever the unit of the densities.
+    ///
+    /// # Errors
+    /// No answers, rows of another length, densities that are negative, not finite, or zero under every draw.
+    pub fn sampled(belief: &Belief, mut densities: Vec<f64>) -> Result<Self, InquiryError> {
+        let n_draws = belief.n();
+        if densities.is_empty() {
+            return Err(InquiryError::Empty { what: "answers" });
+        }
+        check_length("densities", densities.len(), densities.len() / n_draws * n_draws)?;
+        check_numbers("density", &densities, "finite and at least 0", |p| p.is_finite() && p >= 0.0)?;
+        let share = n_draws as f64 / densities.len() as f64;
+        for row in densities.chunks_exact_mut(n_draws) {
+            let mean = belief.mean(row);
+            if mean <= 0.0 {
+                return Err(InquiryError::Empty { what: "draws that allow a drawn answer" });
+            }
+            row.iter_mut().for_each(|p| *p *= share / mean);
+        }
+        Ok(Self { n_draws, kind: Kind::Table(densities) })
     }
 
     /// Draws.
@@ -159,7 +183,7 @@ fn check_rows(n_draws: usize, rows: &[f64], what: &'static str) -> Result<(), In
 #[cfg(test)]
 mod tests {
     use super::Answers;
-    use crate::InquiryError;
+    use crate::{Belief, InquiryError, reward_information};
 
     #[test]
     fn a_critique_labels_every_step_in_every_way() {
@@ -182,6 +206,39 @@ mod tests {
         let mut direct = [0.0, 0.0];
         answers.for_each(|_, p| direct.iter_mut().zip(p).for_each(|(sum, p)| *sum += super::surprise(*p)));
         assert!(direct.iter().zip(answers.entropies()).all(|(a, b)| (a - b).abs() < 1e-14));
+    }
+
+    /// Two normal answers of spread 1 whose means lie 2 apart, equally probable: the information of the answer is that of a
+    /// binary-input Gaussian channel at 0 dB, .4859 bit. Drawn evenly by quantile, so that hardly any error of drawing is left.
+    #[test]
+    fn drawn_answers_stand_for_all() {
+        let belief = Belief::equal(2).expect("draws");
+        let n = 2000;
+        let mut densities = Vec::new();
+        for i in 0..n {
+            // Half of the answers under either draw; the quantiles of a normal by bisection.
+            let mean = if i % 2 == 0 { -1.0 } else { 1.0 };
+            let share = (f64::from(i / 2) + 0.5) / (0.5 * f64::from(n));
+            let (mut low, mut high) = (-9.0, 9.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if 0.5 * libm::erfc(-middle * std::f64::consts::FRAC_1_SQRT_2) < share {
+                    low = middle
+                } else {
+                    high = middle
+                }
+            }
+            let x = mean + low;
+            densities.extend([-1.0, 1.0].map(|m| 7.0 * (-0.5 * (x - m) * (x - m)).exp()));
+        }
+        let answers = Answers::sampled(&belief, densities).expect("densities");
+        let bits = reward_information(&answers, &belief).expect("fits") / std::f64::consts::LN_2;
+        assert!((bits - 0.4859).abs() < 5e-4, "{bits}");
+        let mut total = 0.0;
+        answers.for_each(|_, p| total += belief.mean(p));
+        assert!((total - 1.0).abs() < 1e-12);
+        assert!(Answers::sampled(&belief, vec![0.0, 0.0]).is_err() && Answers::sampled(&belief, vec![1.0]).is_err());
+        assert!(Answers::sampled(&belief, vec![]).is_err() && Answers::sampled(&belief, vec![-1.0, 1.0]).is_err());
     }
 
     #[test]

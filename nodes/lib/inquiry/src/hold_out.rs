@@ -5,6 +5,9 @@ use crate::{Answers, Belief, InquiryError};
 /// Share of answers that the model itself expects to be surprises.
 pub const SURPRISING: f64 = 0.1;
 
+/// Answers that are asked for, at most, to confirm a model.
+pub const MAX_MISSING: u32 = 1000;
+
 /// How often answers to random questions were a surprise. Under the right model at most [`SURPRISING`] of them are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct HoldOut {
@@ -33,6 +36,22 @@ impl HoldOut {
     /// A confidence outside (0, 1).
     pub fn interval(&self, confidence: f64) -> Result<[f64; 2], InquiryError> {
         clopper_pearson(self.surprises, self.n, confidence)
+    }
+
+    /// How many more answers, none of them a surprise, would show with confidence 1 − δ that the true share of surprises is at
+    /// most `most`; 0 when these do. Where that would take more than [`MAX_MISSING`] it is that many.
+    ///
+    /// # Errors
+    /// δ outside (0, 1); a share outside (0, 1].
+    pub fn missing(&self, most: f64, delta: f64) -> Result<u32, InquiryError> {
+        check_level("delta", delta)?;
+        crate::error::check_numbers("most surprises", &[most], "above 0 and at most 1", |x| x > 0.0 && x <= 1.0)?;
+        if most == 1.0 {
+            return Ok(0);
+        }
+        // So few surprises or fewer must be improbable where the share is as large as that.
+        let shown = |more: u32| risk::cdf(self.surprises, self.n + u64::from(more), most) <= delta;
+        Ok((0..MAX_MISSING).find(|&more| shown(more)).unwrap_or(MAX_MISSING))
     }
 
     /// Whether surprises are so many that the model cannot be right, at the error probability `delta`.
@@ -145,5 +164,9 @@ mod tests {
         // P(X ≥ 3; 6, .1) = .01585.
         assert!(held_out.refutes(0.016).expect("a level") && !held_out.refutes(0.015).expect("a level"));
         assert!(!HoldOut::default().refutes(0.5).expect("a level"));
+        let missing = |n, surprises, most| HoldOut { n, surprises }.missing(most, 0.05).expect("a level");
+        // 1 − .05^(1/n) ≤ .1 from n = 29 on.
+        assert_eq!((missing(0, 0, 0.1), missing(28, 0, 0.1), missing(29, 0, 0.1)), (29, 1, 0));
+        assert_eq!((missing(0, 0, 1.0), missing(9, 9, 1e-6)), (0, super::MAX_MISSING));
     }
 }

@@ -33,7 +33,7 @@ pub use candidates::candidates;
 pub use choice::{Choice, Judged, choose};
 pub use drawn::DrawnOptima;
 pub use error::InquiryError;
-pub use hold_out::{HoldOut, SURPRISING, clopper_pearson, is_surprise};
+pub use hold_out::{HoldOut, MAX_MISSING, SURPRISING, clopper_pearson, is_surprise};
 pub use information::{class_information, reward_information, risk_information};
 pub use look_ahead::{Alternatives, Objective, expected_drop};
 pub use prediction::{Prediction, PredictionMethod, predict};

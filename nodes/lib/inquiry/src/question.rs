@@ -124,6 +124,13 @@ pub struct Round {
 }
 
 impl Round {
+    /// Leaves feasible what is and what the robot `could` carry out: reach the state, lay the table, show the trajectory.
+    pub fn only_feasible(&mut self, could: impl Fn(&Question) -> bool) {
+        for question in &mut self.questions {
+            question.feasible = question.feasible && could(question);
+        }
+    }
+
     /// Refuses parts that are not about the same draws and situations.
     ///
     /// # Errors

@@ -13,6 +13,9 @@ pub struct StoppingRule {
     pub delta: f64,
     /// Gain per second of the person's time below which questions are not worth asking; 0: none is too small.
     pub least_gain_per_second: f64,
+    /// Share of surprises among answers to random questions that is still tolerable, in (0, 1]: nothing is taught before they show,
+    /// with confidence 1 − δ, that there are no more. 1: they need not.
+    pub most_surprises: f64,
     /// Level at which hold-out questions and the predictive check count as proof of a wrong model.
     pub misfit_level: f64,
 }
@@ -48,6 +51,13 @@ pub enum Standing {
     Taught {
         /// The bound.
         bound: f64,
+    },
+    /// The bound is below ε, but too few random questions confirm the model that it rests on.
+    Confirming {
+        /// The bound.
+        bound: f64,
+        /// Random questions to ask, if none of their answers is a surprise.
+        about: u32,
     },
     /// More answers are needed.
     NotYet {
@@ -97,6 +107,8 @@ impl StoppingRule {
     pub fn check(&self) -> Result<(), InquiryError> {
         let positive = |x: f64| x > 0.0 && x.is_finite();
         check_numbers("epsilon", &[self.epsilon], "positive and finite", positive)?;
+        let share = [self.most_surprises];
+        check_numbers("most surprises", &share, "above 0 and at most 1", |x| x > 0.0 && x <= 1.0)?;
         let levels = [self.delta, self.misfit_level];
         check_numbers("level", &levels, "strictly between 0 and 1", |x| x > 0.0 && x < 1.0)?;
         let gain = [self.least_gain_per_second];
@@ -127,7 +139,8 @@ impl StoppingRule {
             return Ok(hopeless(Obstacle::Misfit { p_value: fit.p_value }));
         }
         if let Some(bound) = bound.filter(|bound| *bound < self.epsilon) {
-            return Ok(Standing::Taught { bound });
+            let about = look.hold_out.missing(self.most_surprises, self.delta)?;
+            return Ok(if about == 0 { Standing::Taught { bound } } else { Standing::Confirming { bound, about } });
         }
         Ok(match look.next {
             Selection::NothingFeasible => hopeless(Obstacle::NothingFeasible),
@@ -147,8 +160,13 @@ mod tests {
     use super::{Look, Obstacle, Standing, StoppingRule};
     use crate::{Chosen, HoldOut, PredictiveCheck, Selection};
 
-    const RULE: StoppingRule =
-        StoppingRule { epsilon: 0.1, delta: 0.05, least_gain_per_second: 0.01, misfit_level: 0.01 };
+    const RULE: StoppingRule = StoppingRule {
+        epsilon: 0.1,
+        delta: 0.05,
+        least_gain_per_second: 0.01,
+        most_surprises: 1.0,
+        misfit_level: 0.01,
+    };
     const ASK: Selection =
         Selection::Ask(Chosen { question: 0, score: 0.5, per_second: Some(0.05), is_hold_out: false });
 
@@ -165,6 +183,22 @@ mod tests {
         // Nothing left to ask is no obstacle when the bound is below ε.
         let done = RULE.standing(&look(&[Some(0.0)], &Selection::NothingToLearn)).expect("a rule");
         assert_eq!(done, Standing::Taught { bound: 0.0 });
+    }
+
+    #[test]
+    fn a_bound_may_have_to_be_confirmed() {
+        let rule = StoppingRule { most_surprises: 0.5, ..RULE };
+        let standing = |n, surprises| {
+            let look = Look { hold_out: HoldOut { n, surprises }, ..look(&[Some(0.05)], &ASK) };
+            rule.standing(&look).expect("a rule")
+        };
+        // Without a surprise the share is at most 1 − .05^(1/n): .527 at 4, .451 at 5.
+        assert_eq!(standing(0, 0), Standing::Confirming { bound: 0.05, about: 5 });
+        assert_eq!(standing(4, 0), Standing::Confirming { bound: 0.05, about: 1 });
+        assert_eq!(standing(5, 0), Standing::Taught { bound: 0.05 });
+        // With one, 7 of 8 have to be none: P(X ≤ 1; 8, ½) = .035.
+        assert_eq!(standing(5, 1), Standing::Confirming { bound: 0.05, about: 3 });
+        assert!(StoppingRule { most_surprises: 0.0, ..RULE }.check().is_err());
     }
 
     #[test]

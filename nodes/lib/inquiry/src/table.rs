@@ -2,11 +2,13 @@
 //! places is better?".
 
 use likelihood::preferences::AnswerModel;
+use mdp::random::categorical;
+use rand_chacha::ChaCha8Rng;
 use scene::{Field, Grid, Point, Rbf, Scene, exp};
 
 use crate::error::{check_length, check_numbers};
 use crate::tabular::comparison_answers;
-use crate::{Alternatives, Answers, InquiryError, Losses};
+use crate::{Alternatives, Answers, Belief, InquiryError, Losses};
 
 /// Cells a side that a coarse answer cell is divided into.
 const FINER: usize = 2;
@@ -103,21 +105,85 @@ pub fn placement_answers(scene: &Scene, draws: &TableDraws<'_>, side: usize) -> 
     let mut rewards = vec![0.0; fine * fine];
     let mut probabilities = vec![0.0; side * side * n];
     for (draw, w) in draws.weights.chunks_exact(draws.n_features).enumerate() {
-        field.rewards(w, &mut rewards);
-        let free = || rewards.iter().zip(field.free()).filter(|(_, free)| **free).map(|(reward, _)| *reward);
-        let best = free().fold(f64::NEG_INFINITY, f64::max);
-        let beta = draws.beta(draw);
-        let mut total = 0.0;
-        for (mass, &free) in rewards.iter_mut().zip(field.free()) {
-            *mass = if free { exp(beta * (*mass - best)) } else { 0.0 };
-            total += *mass;
-        }
+        let (_, total) = masses(&field, w, draws.beta(draw), &mut rewards);
         for (cell, mass) in rewards.iter().enumerate() {
             let answer = cell / fine / FINER * side + cell % fine / FINER;
             probabilities[answer * n + draw] += mass / total;
         }
     }
     Answers::table(n, probabilities).map(Some)
+}
+
+/// The same with `n` places drawn instead of cells, for when answers lie closer together than cells: each is drawn from what
+/// one of n evenly spaced draws expects on a grid of `side` × `side` points, which also normalises the densities. `None` where
+/// nothing is free.
+///
+/// # Errors
+/// As [`placement_answers`]; a belief about other draws.
+pub fn sampled_placement_answers(
+    scene: &Scene,
+    draws: &TableDraws<'_>,
+    belief: &Belief,
+    n: usize,
+    side: usize,
+    rng: &mut ChaCha8Rng,
+) -> Result<Option<Answers>, InquiryError> {
+    let n_draws = draws.n()?;
+    check_length("draws with weights", belief.n(), n_draws)?;
+    if side == 0 || n == 0 {
+        return Err(InquiryError::Empty { what: "places" });
+    }
+    let rbf = Rbf::new(scene);
+    check_length("features of the scene", rbf.n(), draws.n_features)?;
+    let field = Field::new(&rbf, &Grid::midpoints(side), Some(scene));
+    if field.n_free() == 0 {
+        return Ok(None);
+    }
+    // Which draws an answer is drawn from, in proportion to their weights, evenly.
+    let mut sources = Vec::with_capacity(n);
+    let (mut draw, mut passed) = (0, belief.weights()[0]);
+    for answer in 0..n {
+        let share = (answer as f64 + 0.5) / n as f64;
+        while passed < share && draw + 1 < n_draws {
+            draw += 1;
+            passed += belief.weights()[draw];
+        }
+        sources.push(draw);
+    }
+    let mut rewards = vec![0.0; side * side];
+    let mut normalisers = Vec::with_capacity(n_draws);
+    let mut places = Vec::with_capacity(n);
+    for (draw, w) in draws.weights.chunks_exact(draws.n_features).enumerate() {
+        let (best, total) = masses(&field, w, draws.beta(draw), &mut rewards);
+        normalisers.push((best, total));
+        for _ in sources.iter().filter(|source| **source == draw) {
+            places.push(field.grid().at(categorical(rewards.iter().copied(), total, rng)));
+        }
+    }
+    let mut densities = Vec::with_capacity(n * n_draws);
+    for place in places {
+        let phi = rbf.features(place);
+        densities.extend(draws.weights.chunks_exact(draws.n_features).zip(&normalisers).enumerate().map(
+            |(draw, (w, (best, total)))| {
+                let reward: f64 = w.iter().zip(&phi).map(|(w, phi)| w * phi).sum();
+                exp(draws.beta(draw) * (reward - best)) / total
+            },
+        ));
+    }
+    Answers::sampled(belief, densities).map(Some)
+}
+
+/// exp(β (R − best)) at every free point of the grid, 0 at the others, into `rewards`; gives the best reward and their sum.
+fn masses(field: &Field, w: &[f64], beta: f64, rewards: &mut [f64]) -> (f64, f64) {
+    field.rewards(w, rewards);
+    let free = rewards.iter().zip(field.free()).filter(|(_, free)| **free);
+    let best = free.map(|(reward, _)| *reward).fold(f64::NEG_INFINITY, f64::max);
+    let mut total = 0.0;
+    for (mass, &free) in rewards.iter_mut().zip(field.free()) {
+        *mass = if free { exp(beta * (*mass - best)) } else { 0.0 };
+        total += *mass;
+    }
+    (best, total)
 }
 
 /// Which answer of [`placement_answers`] a placement is, in coordinates in which the table is the unit square.

@@ -98,7 +98,7 @@ fn risk_information_by_quadrature() {
 #[test]
 fn only_what_can_be_carried_out_is_asked() {
     let mut round = round();
-    round.questions[0].feasible = false;
+    round.only_feasible(|question| question.kind != QuestionKind::Critique);
     assert_eq!(asked(select(&round, &by(Strategy::RewardInformation), 1).expect("fits")), 1);
     assert_eq!(scores(&round, &round.belief, Strategy::RewardInformation).expect("fits")[0], f64::NEG_INFINITY);
     assert_eq!(round.feasible_kinds(), [QuestionKind::Action, QuestionKind::Comparison]);

@@ -2,10 +2,13 @@
 
 use inquiry::table::{
     TableDraws, placement_alternatives, placement_answer, placement_answers, placement_comparison, placement_losses,
+    sampled_placement_answers,
 };
 use inquiry::{Belief, reward_information};
 use likelihood::placements::{Placement, PlacementLikelihood};
 use likelihood::preferences::AnswerModel;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 use scene::{Grid, Object, Point, Rbf, Scene, Shape};
 
 fn scene() -> Scene {
@@ -58,6 +61,27 @@ fn placements_are_as_probable_as_they_will_be_as_evidence() {
         }
     }
     assert!(reward_information(&answers, &Belief::equal(3).expect("draws")).expect("fits") > 0.0);
+}
+
+/// Drawn places tell as much as cells do, where cells are small beside what they tell apart.
+#[test]
+fn drawn_places_stand_for_all_places() {
+    let (scene, weights) = (scene(), draws());
+    let table = TableDraws { weights: &weights, n_features: 11, betas: &[20.0] };
+    let belief = Belief::weighted(&[0.5, 0.2, 0.3]).expect("weights");
+    let cells = placement_answers(&scene, &table, 16).expect("draws").expect("a free place");
+    let mut rng = ChaCha8Rng::seed_from_u64(4);
+    let drawn =
+        sampled_placement_answers(&scene, &table, &belief, 20_000, 32, &mut rng).expect("draws").expect("a free place");
+    let (of_cells, of_drawn) =
+        (reward_information(&cells, &belief).expect("fits"), reward_information(&drawn, &belief).expect("fits"));
+    // The standard error of the drawn one is below .01.
+    assert!((of_cells - of_drawn).abs() < 0.03, "{of_cells} {of_drawn}");
+    let again = || {
+        let mut rng = ChaCha8Rng::seed_from_u64(4);
+        sampled_placement_answers(&scene, &table, &belief, 10, 32, &mut rng).expect("draws")
+    };
+    assert_eq!(again(), again());
 }
 
 #[test]
