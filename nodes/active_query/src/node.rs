@@ -1,6 +1,6 @@
 //! The node as a state machine: posteriors and bounds in, candidates, questions and the lesson's state out.
 
-use crate::{Settings, words, world_lesson};
+use crate::{Settings, Strategy, asking, words, world_lesson};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
     Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, PolicyBounds, Posterior,
@@ -158,7 +158,7 @@ impl ActiveQuery {
             loss_bound: f64::NAN,
             epsilon_loss: f64::NAN,
         };
-        let mut query = None;
+        let (mut query, mut warnings) = (None, Vec::new());
         // Without a demonstration there is nothing the person has agreed to, whatever the prior says.
         let choice = if round.posterior.n_demonstrations == 0 { ask_first(&judged) } else { next(&judged, epsilon_m) };
         match choice {
@@ -183,14 +183,16 @@ impl ActiveQuery {
                     100.0 * epsilon_m
                 );
             }
-            Choice::Ask(index) => {
+            Choice::Ask(largest) => {
+                let (index, warning) = self.table_to_ask(round, &judged, largest);
+                warnings.extend(warning);
                 let asked = self.ask(round, bounds, index);
                 lesson.query_id = asked.id.clone();
                 lesson.questions_asked += 1;
                 query = Some(asked);
             }
         }
-        let mut outputs = Vec::new();
+        let mut outputs: Vec<Output> = warnings.into_iter().map(Output::Warn).collect();
         if let Some(query) = query {
             outputs.push(Output::Query(query.clone()));
             self.query = Some(query);
@@ -198,6 +200,24 @@ impl ActiveQuery {
         outputs.push(Output::Lesson(lesson.clone()));
         self.lesson = Some(lesson);
         outputs
+    }
+
+    /// The table to ask about when `largest` has the largest bound, and what a person should know about it. The table of the
+    /// task, the last one, comes only when no imagined one is worth asking about; then it is asked about.
+    fn table_to_ask(&self, round: &Round, judged: &[Judged], largest: usize) -> (usize, Option<String>) {
+        let imagined = round.scenes.len() - 1;
+        if largest >= imagined || round.posterior.n_demonstrations == 0 {
+            return (largest, None);
+        }
+        let (tables, judged) = (&round.scenes[..imagined], &judged[..imagined]);
+        match asking::table_to_ask(&self.settings, &round.posterior, tables, judged, largest) {
+            Ok(index) => (index, None),
+            Err(error) => {
+                let revision = round.posterior.revision;
+                let warning = format!("posterior {revision}: the table with the largest bound is asked about: {error}");
+                (largest, Some(warning))
+            }
+        }
     }
 
     fn ask(&self, round: &Round, bounds: &PerformanceBounds, index: usize) -> Box<PlacementQuery> {
@@ -208,13 +228,15 @@ impl ActiveQuery {
         } else {
             words::difference(&round.base, &round.scenes[index])
         };
+        let is_imagined = index + 1 < round.scenes.len();
+        let strategy = if is_imagined { self.settings.strategy } else { Strategy::Var };
         let question = format!("Where does the {} belong {place}?", round.base.target.label);
         Box::new(PlacementQuery {
             header: posterior.header.clone(),
             id: query_id(self.settings.seed, posterior),
             revision: posterior.revision,
             scene: round.candidates.scenes[index].clone(),
-            reason: format!("{question} {}", words::why(bound, bounds, posterior.n_demonstrations)),
+            reason: format!("{question} {}", words::why(bound, bounds, posterior.n_demonstrations, strategy)),
             bound_m: bound.bound_m,
             epsilon_m: self.settings.epsilon_m,
             n_candidates: u32::try_from(bounds.bounds.len()).unwrap_or(u32::MAX),

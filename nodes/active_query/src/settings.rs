@@ -3,6 +3,19 @@
 use bus::{NodeSettings, ParameterSpec, Range};
 use serde::{Deserialize, Serialize};
 
+/// By what a table is chosen among the imagined ones. The lesson ends by the bounds, whatever is asked.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Strategy {
+    /// The largest bound on the loss (dissertation section 8.2.4).
+    #[default]
+    Var,
+    /// The answer that is expected to tell most about the reward.
+    Information,
+    /// Any.
+    Random,
+}
+
 /// Parameters of `active_query`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -15,6 +28,8 @@ pub struct Settings {
     pub epsilon_loss: f64,
     /// Hypothetical tables a question is chosen from.
     pub n_candidates: i64,
+    /// By what one of them is chosen.
+    pub strategy: Strategy,
     /// Questions after which the lesson is given up.
     pub max_questions: i64,
     /// How often the pending question and the lesson's state are sent again, seconds.
@@ -28,6 +43,7 @@ impl Default for Settings {
             epsilon_m: 0.10,
             epsilon_loss: 0.10,
             n_candidates: 50,
+            strategy: Strategy::Var,
             max_questions: 60,
             republish_period_s: 2.0,
         }
@@ -58,6 +74,11 @@ impl NodeSettings for Settings {
             name: "n_candidates",
             about: "hypothetical tables a question is chosen from",
             range: Range::Integer { min: 1, max: 1000 },
+        },
+        ParameterSpec {
+            name: "strategy",
+            about: "by what a table is chosen: the largest bound, the most telling answer, or at random",
+            range: Range::Choice(&["var", "information", "random"]),
         },
         ParameterSpec {
             name: "max_questions",

@@ -1,5 +1,6 @@
 //! The sentences an operator reads.
 
+use crate::Strategy;
 use apprentice_msgs::msg::{PerformanceBounds, PlacementBound};
 use scene::Scene;
 
@@ -15,13 +16,23 @@ pub(crate) fn difference(from: &Scene, to: &Scene) -> String {
 }
 
 /// Why a table is asked about.
-pub(crate) fn why(bound: &PlacementBound, bounds: &PerformanceBounds, n_demonstrations: u64) -> String {
+pub(crate) fn why(
+    bound: &PlacementBound,
+    bounds: &PerformanceBounds,
+    n_demonstrations: u64,
+    strategy: Strategy,
+) -> String {
     if n_demonstrations == 0 {
         return "I have not been shown anything yet.".into();
     }
     let of = bounds.bounds.len();
     if bound.outcome == PlacementBound::BOUND {
-        let tables = if of == 1 { String::new() } else { format!(", the most of {of} tables I looked at") };
+        let tables = match strategy {
+            _ if of == 1 => String::new(),
+            Strategy::Var => format!(", the most of {of} tables I looked at"),
+            Strategy::Information => format!(", and here your answer tells me more than on {} other tables", of - 1),
+            Strategy::Random => format!("; I drew this table at random out of {of}"),
+        };
         format!(
             "Here I could still be {:.1} cm off ({:.0} % sure that it is no more for {:.0} in 100 of the rewards that fit){tables}.",
             100.0 * bound.bound_m,

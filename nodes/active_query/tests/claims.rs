@@ -1,6 +1,6 @@
 //! What is asked, when the lesson ends, and that outputs are a function of the messages.
 
-use active_query::{ActiveQuery, Event, Output, Settings};
+use active_query::{ActiveQuery, Event, Output, Settings, Strategy};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
@@ -185,4 +185,63 @@ fn a_posterior_with_a_broken_scene_is_told_and_survived() {
     let outputs = step(&mut node, Event::Posterior(Box::new(broken)));
     assert!(matches!(outputs.as_slice(), [Output::Warn(text)] if text.contains("'cup'")), "{outputs:?}");
     assert_eq!(candidates(&mut node, posterior(1, 1)).scenes.len(), 4);
+}
+
+/// A posterior with draws: they agree about the cup and the table's middle, and differ in whether the plate attracts or repels.
+fn drawn() -> Posterior {
+    let names = ["cup", "plate"].map(String::from).into_iter().chain((0..9).map(|i| format!("table {i}")));
+    let draw = |i: usize| {
+        let mut w = [0.0_f32; 11];
+        w[1] = if i % 2 == 0 { 0.4 } else { -0.4 };
+        w[6] = 0.6;
+        w
+    };
+    Posterior {
+        feature_names: names.collect(),
+        n_draws: 40,
+        draws: (0..40).flat_map(draw).collect(),
+        map_weights: draw(1).map(f64::from).to_vec(),
+        beta: 50.0,
+        ..posterior(1, 1)
+    }
+}
+
+#[test]
+fn the_strategy_decides_which_imagined_table_is_asked_about() {
+    let asked = |strategy, seed| {
+        let mut node = ActiveQuery::new(Settings { strategy, seed, n_candidates: 12, ..Settings::default() });
+        let tables = candidates(&mut node, drawn());
+        let n = tables.scenes.len();
+        // The first has the largest bound; the last is the table of the lesson.
+        let all: Vec<f64> = (0..n).map(|i| 0.9 - 0.01 * i as f64).collect();
+        let query = verdict(&mut node, bounds(1, &all)).0.expect("the bounds are above ε");
+        let index = tables.scenes.iter().position(|scene| *scene == query.scene).expect("one of the candidates");
+        (index, n, query.reason)
+    };
+    let var = asked(Strategy::Var, 3);
+    assert_eq!(var.0, 0);
+    assert!(var.2.contains("the most of"), "{}", var.2);
+    let information: Vec<_> = (1..9).map(|seed| asked(Strategy::Information, seed)).collect();
+    assert!(information.iter().any(|asked| asked.0 != 0) && information.iter().all(|asked| asked.0 + 1 < asked.1));
+    assert!(information.iter().all(|asked| asked.2.contains("tells me more")), "{}", information[0].2);
+    assert_eq!(information, (1..9).map(|seed| asked(Strategy::Information, seed)).collect::<Vec<_>>());
+    let random: Vec<_> = (1..9).map(|seed| asked(Strategy::Random, seed).0).collect();
+    assert!(random.iter().any(|index| *index != random[0]));
+    assert!(asked(Strategy::Random, 3).2.contains("at random"));
+}
+
+#[test]
+fn draws_that_do_not_fit_are_told_and_the_largest_bound_is_asked_about() {
+    let mut node =
+        ActiveQuery::new(Settings { strategy: Strategy::Information, n_candidates: 3, ..Settings::default() });
+    let n = candidates(&mut node, Posterior { beta: 0.0, ..drawn() }).scenes.len();
+    let mut all = vec![0.3; n];
+    all[1] = 0.4;
+    match step(&mut node, Event::Bounds(Box::new(bounds(1, &all)))).as_slice() {
+        [Output::Warn(text), Output::Query(query), Output::Lesson(_)] => {
+            assert!(text.contains("rationality"), "{text}");
+            assert_eq!(query.bound_m, 0.4);
+        }
+        other => panic!("a warning and a question were expected, got {other:?}"),
+    }
 }
