@@ -39,6 +39,9 @@ pub(crate) fn build(
     Ok(robot)
 }
 
+/// Limits beyond this are none, radians or metres.
+const FARTHEST: f64 = 1e3;
+
 fn line(places: &BTreeMap<String, usize>, name: &str) -> usize {
     places.get(name).copied().unwrap_or(0)
 }
@@ -249,6 +252,14 @@ fn build_joint(
         return Err(UrdfError::Velocity { line, joint: name(), got: limit.velocity });
     }
     let unlimited = |wanted: bool, value: f64| if wanted { value } else { f64::INFINITY };
+    let endless = |value: f64| if value > FARTHEST { f64::INFINITY } else { value };
+    if ranged && (-limit.lower > FARTHEST || limit.upper > FARTHEST) {
+        problems.push(Problem {
+            line,
+            what: format!("joint '{}' has limits [{}, {}]: beyond {FARTHEST} it counts as endless", name(), limit.lower, limit.upper),
+            advice: "make it continuous, or give its real limits".into(),
+        });
+    }
     Ok(Joint {
         name: joint.name.clone(),
         line,
@@ -258,8 +269,8 @@ fn build_joint(
         parent_from_joint: pose(&joint.origin),
         axis,
         limits: Limits {
-            lower: -unlimited(ranged, -limit.lower),
-            upper: unlimited(ranged, limit.upper),
+            lower: -unlimited(ranged, endless(-limit.lower)),
+            upper: unlimited(ranged, endless(limit.upper)),
             velocity: unlimited(limited, limit.velocity),
             effort: unlimited(limited, limit.effort),
         },

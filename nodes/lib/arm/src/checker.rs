@@ -1,6 +1,6 @@
 //! A robot with everything a planner asks of it, one for each thread.
 
-use crate::collision::{CollisionModel, Contact, Scratch};
+use crate::collision::{Body, CollisionModel, Contact, Scratch};
 use crate::sweep::{Sweep, SweepScratch, SweepSettings, Way};
 use crate::{Robot, World};
 use nalgebra::Isometry3;
@@ -15,6 +15,13 @@ pub struct Checker {
     poses: Vec<Isometry3<f64>>,
     scratch: Scratch,
     room: SweepScratch,
+}
+
+/// What is nowhere is not free.
+const NOWHERE: Contact = Contact { a: Body::Link(0), b: Body::Link(0) };
+
+fn is_finite(q: &[f64]) -> bool {
+    q.iter().all(|v| v.is_finite())
 }
 
 impl Checker {
@@ -45,20 +52,30 @@ impl Checker {
         self.first_contact(q, world, margin).is_none()
     }
 
-    /// See [`CollisionModel::first_contact`].
+    /// See [`CollisionModel::first_contact`]. A configuration that is not finite is never free: its root counts as touching
+    /// itself.
     pub fn first_contact(&mut self, q: &[f64], world: &World, margin: f64) -> Option<Contact> {
+        if !is_finite(q) {
+            return Some(NOWHERE);
+        }
         self.robot.link_poses(q, &mut self.poses);
         self.model.first_contact(&self.poses, world, margin, &mut self.scratch)
     }
 
     /// See [`CollisionModel::contacts`].
     pub fn contacts(&mut self, q: &[f64], world: &World, margin: f64) -> Vec<Contact> {
+        if !is_finite(q) {
+            return vec![NOWHERE];
+        }
         self.robot.link_poses(q, &mut self.poses);
         self.model.contacts(&self.poses, world, margin, &mut self.scratch)
     }
 
     /// See [`CollisionModel::nearest`].
     pub fn nearest(&mut self, q: &[f64], world: &World, limit: f64) -> Option<(Contact, f64)> {
+        if !is_finite(q) {
+            return Some((NOWHERE, 0.0));
+        }
         self.robot.link_poses(q, &mut self.poses);
         self.model.nearest(&self.poses, world, limit, &mut self.scratch)
     }
@@ -72,6 +89,9 @@ impl Checker {
 
     /// The straight way in joint space from one configuration to another.
     pub fn sweep(&mut self, from: &[f64], to: &[f64], world: &World, settings: &SweepSettings) -> Sweep {
+        if !is_finite(from) || !is_finite(to) {
+            return Sweep::Blocked { share: 0.0, contact: NOWHERE };
+        }
         let way = Way { robot: &self.robot, model: &self.model, world, settings };
         way.sweep(from, to, &mut self.poses, &mut self.scratch, &mut self.room)
     }

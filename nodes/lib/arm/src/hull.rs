@@ -1,13 +1,21 @@
 //! The convex hull of points, built for many questions of the kind "which corner is farthest that way?".
 
-use nalgebra::Vector3;
-use parry3d_f64::math::Vector;
+use crate::convex::to_nalgebra;
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use parry3d_f64::math::{Rotation, Vector};
 use parry3d_f64::transformation::try_convex_hull;
 
 /// Hulls with fewer corners are searched one by one.
 const FEW: usize = 20;
 /// Cells per edge of the cube of directions.
 const CELLS: usize = 6;
+
+/// No point lies farther outside of a hull than this share of its size.
+const TOLERANCE: f64 = 1e-9;
+/// Directions from which the hull is tried.
+const ATTEMPTS: i32 = 8;
+/// The corners of an octahedron.
+const AXES: [Vector; 6] = [Vector::X, Vector::Y, Vector::Z, Vector::NEG_X, Vector::NEG_Y, Vector::NEG_Z];
 
 /// A convex solid given by its corners, which enclose a volume.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,30 +40,66 @@ impl Hull {
         if points.is_empty() {
             return None;
         }
-        if let Some(hull) = Self::build(&points) {
-            return Some(hull);
+        let frame = Frame::around(&points);
+        // Far from the origin, or over a large plate, so little would be lost in rounding.
+        let far = points.iter().fold(0.0, |far: f64, p| far.max(p.abs().max_element()));
+        let thickness = thickness.max(1e-5 * frame.half.max_element()).max(1e-9 * far);
+        let is_flat = frame.half.min_element() <= 1e-6 * frame.half.max_element() + 1e-9 * far;
+        let solid = if is_flat { None } else { Self::build(&points, &frame) };
+        if solid.is_some() {
+            return solid;
         }
-        let thick: Vec<Vector> = points.iter().flat_map(|&p| octahedron(p, thickness)).collect();
-        // Whatever the points are, a box around them is a hull.
-        let hull = Self::build(&thick).or_else(|| Self::build(&box_around(&points, thickness)))?;
-        Some(Self { flat: true, ..hull })
+        let around = |p: Vector| AXES.map(|axis| p + frame.rotation * (axis * thickness));
+        let thick: Vec<Vector> = points.iter().flat_map(|&p| around(p)).collect();
+        let hull = Self::build(&thick, &Frame { half: frame.half + thickness, ..frame });
+        Some(Self { flat: true, ..hull.unwrap_or_else(|| Self::block(&points, thickness)) })
     }
 
-    fn build(points: &[Vector]) -> Option<Self> {
-        if points.len() < 4 {
-            return None;
+    /// The box around points, whatever they are.
+    fn block(points: &[Vector], thickness: f64) -> Self {
+        let corners = box_around(points, thickness);
+        let extent = corners[7] - corners[0];
+        Self {
+            corners: corners.to_vec(),
+            first: (0..=8).map(|i| 3 * i).collect(),
+            neighbours: (0..8_u32).flat_map(|i| [i ^ 1, i ^ 2, i ^ 4]).collect(),
+            starts: Vec::new(),
+            volume: extent.x * extent.y * extent.z,
+            flat: false,
         }
-        let (corners, faces) = try_convex_hull(points).ok()?;
-        if faces.is_empty() || corners.iter().any(|c| !c.is_finite()) {
-            return None;
-        }
+    }
+
+    /// The hull of points that fill a box, checked: where many points are nearly in one plane, parry's algorithm leaves out a
+    /// corner about once in ten thousand times, so what it finds is tried against all points, and again turned.
+    fn build(points: &[Vector], frame: &Frame) -> Option<Self> {
+        let upright = Frame::upright(points);
+        let mut frames = vec![(upright, Rotation::IDENTITY)];
+        let turn = |k: f64| Rotation::from_scaled_axis(k * Vector::new(0.41, 0.73, 0.29));
+        frames.extend((0..ATTEMPTS).map(|k| (*frame, turn(f64::from(k)))));
+        frames.iter().filter(|(frame, _)| frame.half.min_element() > 0.0).find_map(|(f, turn)| Self::attempt(points, f, *turn))
+    }
+
+    /// The algorithm takes what is much longer than thick for flat, so it is given the points stretched to a cube.
+    fn attempt(points: &[Vector], frame: &Frame, turn: Rotation) -> Option<Self> {
+        let stretch = |p: &Vector| turn * ((frame.rotation.inverse() * (*p - frame.centre)) / frame.half);
+        let stretched: Vec<Vector> = points.iter().map(stretch).collect();
+        let (corners, faces) = try_convex_hull(&stretched).ok()?;
         let corner = |i: u32| corners[i as usize];
-        let six: f64 = faces.iter().map(|&[a, b, c]| (corner(a) - corners[0]).dot((corner(b) - corners[0]).cross(corner(c) - corners[0]))).sum();
-        let extent = extents(&corners);
-        let thin = extent.min_element() <= 1e-7 * extent.max_element();
-        if thin || six / 6.0 <= 1e-9 * extent.x * extent.y * extent.z {
+        let six: f64 = faces.iter().map(|&[a, b, c]| corner(a).dot(corner(b).cross(corner(c)))).sum();
+        // Two sides of one polygon, or nothing at all.
+        if corners.len() < 4 || corners.iter().any(|c| !c.is_finite()) || !(six / 6.0 > 1e-6) {
             return None;
         }
+        for &[a, b, c] in &faces {
+            let Some(normal) = (corner(b) - corner(a)).cross(corner(c) - corner(a)).try_normalize() else { continue };
+            let height = normal.dot(corner(a)) + TOLERANCE;
+            if stretched.iter().any(|p| normal.dot(*p) > height) {
+                return None;
+            }
+        }
+        let volume = six / 6.0 * frame.half.x * frame.half.y * frame.half.z;
+        let restore = |c: Vector| frame.centre + frame.rotation * ((turn.inverse() * c) * frame.half);
+        let corners: Vec<Vector> = corners.into_iter().map(restore).collect();
         let mut lists: Vec<Vec<u32>> = vec![Vec::new(); corners.len()];
         for &[a, b, c] in &faces {
             for (from, to) in [(a, b), (b, c), (c, a), (b, a), (c, b), (a, c)] {
@@ -64,13 +108,16 @@ impl Hull {
                 }
             }
         }
+        if lists.iter().any(|list| list.len() < 3) {
+            return None;
+        }
         let mut first = vec![0];
         let mut neighbours = Vec::new();
         for list in &lists {
             neighbours.extend_from_slice(list);
             first.push(neighbours.len() as u32);
         }
-        let mut hull = Self { corners, first, neighbours, starts: Vec::new(), volume: six / 6.0, flat: false };
+        let mut hull = Self { corners, first, neighbours, starts: Vec::new(), volume, flat: false };
         if hull.corners.len() >= FEW {
             hull.starts = (0..6 * CELLS * CELLS).map(|cell| hull.farthest_of_all(middle(cell))).collect();
         }
@@ -128,14 +175,41 @@ impl Hull {
     }
 }
 
-fn extents(points: &[Vector]) -> Vector {
-    let low = points.iter().copied().fold(Vector::INFINITY, Vector::min);
-    let high = points.iter().copied().fold(Vector::NEG_INFINITY, Vector::max);
-    high - low
+/// A box along the principal axes of points.
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    centre: Vector,
+    /// From the axes of the box.
+    rotation: Rotation,
+    half: Vector,
 }
 
-fn octahedron(p: Vector, r: f64) -> [Vector; 6] {
-    [Vector::X, Vector::Y, Vector::Z, -Vector::X, -Vector::Y, -Vector::Z].map(|axis| p + axis * r)
+impl Frame {
+    /// The box along the axes that the points are given in.
+    fn upright(points: &[Vector]) -> Self {
+        let low = points.iter().copied().fold(Vector::INFINITY, Vector::min);
+        let high = points.iter().copied().fold(Vector::NEG_INFINITY, Vector::max);
+        Self { centre: 0.5 * (low + high), rotation: Rotation::IDENTITY, half: 0.5 * (high - low) }
+    }
+
+    fn around(points: &[Vector]) -> Self {
+        let mean = points.iter().copied().sum::<Vector>() / points.len() as f64;
+        let mut spread = Matrix3::zeros();
+        for p in points {
+            let p = to_nalgebra(*p - mean);
+            spread += p * p.transpose();
+        }
+        let mut axes = spread.symmetric_eigen().eigenvectors;
+        if axes.determinant() < 0.0 {
+            axes.swap_columns(0, 1);
+        }
+        let turn = UnitQuaternion::from_matrix(&axes).coords;
+        let rotation = Rotation::from_xyzw(turn.x, turn.y, turn.z, turn.w).normalize();
+        let local = || points.iter().map(|&p| rotation.inverse() * (p - mean));
+        let low = local().fold(Vector::INFINITY, Vector::min);
+        let high = local().fold(Vector::NEG_INFINITY, Vector::max);
+        Self { centre: mean + rotation * (0.5 * (low + high)), rotation, half: 0.5 * (high - low) }
+    }
 }
 
 fn box_around(points: &[Vector], thickness: f64) -> [Vector; 8] {

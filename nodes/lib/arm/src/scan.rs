@@ -130,6 +130,10 @@ impl Pass {
                 return Err(UrdfError::Xml { line, problem: "a second <robot> after the first".into() });
             }
             0 => self.roots += 1,
+            _ if ["mesh", "texture"].contains(&element.as_str()) && self.is_read() => {
+                required(&attributes, &element, "filename", line)?;
+                self.inside(self.path.len(), &element, &attributes, line)?;
+            }
             1 if element == "link" => self.open("link", &attributes, line)?,
             1 if element == "joint" => self.open("joint", &attributes, line)?,
             1 => {}
@@ -137,6 +141,11 @@ impl Pass {
         }
         self.path.push(element);
         Ok(())
+    }
+
+    /// Whether what stands here is read: extensions of other tools are not.
+    fn is_read(&self) -> bool {
+        self.path.get(1).is_some_and(|element| ["link", "material"].contains(&element.as_str()))
     }
 
     fn open(&mut self, kind: &'static str, attributes: &[(String, String)], line: usize) -> Result<(), UrdfError> {
@@ -254,11 +263,13 @@ fn required(
 fn numbers(element: &str, attribute: &str) -> Option<(usize, f64)> {
     const LENGTH: f64 = 1e3;
     const ANY: f64 = 1e12;
+    // Some write 1e16 where they mean that there is no limit.
+    const ENDLESS: f64 = 1e18;
     Some(match (element, attribute) {
         ("origin", "xyz" | "rpy") | ("box", "size") | ("mesh", "scale") | ("axis", "xyz") => (3, LENGTH),
         ("cylinder" | "capsule", "radius" | "length") | ("sphere", "radius") => (1, LENGTH),
         ("color", "rgba") => (4, ANY),
-        ("limit", "lower" | "upper") => (1, LENGTH),
+        ("limit", "lower" | "upper") => (1, ENDLESS),
         ("limit", "effort" | "velocity" | "acceleration" | "deceleration" | "jerk")
         | ("mimic", "multiplier" | "offset")
         | ("mass", "value")

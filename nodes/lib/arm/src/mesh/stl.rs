@@ -13,7 +13,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, MeshError> {
     let declared = bytes.get(80..HEADER).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let held = bytes.len().saturating_sub(HEADER) / RECORD;
     let exact = declared.is_some_and(|n| n == held && bytes.len() == HEADER + RECORD * n);
-    let text = bytes.trim_ascii_start().starts_with(b"solid");
+    let names_facets = || bytes[..bytes.len().min(2000)].windows(5).any(|word| word == b"facet" || word == b"endso");
+    let text = bytes.trim_ascii_start().starts_with(b"solid") && names_facets();
     match declared {
         _ if text && !exact => read_text(&String::from_utf8_lossy(bytes)),
         Some(declared) if declared > MAX_TRIANGLES => {
