@@ -6,7 +6,7 @@ use crate::{Answers, Belief, InquiryError};
 /// Intervals that [0, 1] is cut into, as in the author's program.
 pub const BINS: usize = 10;
 
-/// H̄(s) = (1/A) Σ_a H(μ_sa) in nats, where μ_sa is the distribution of π(a|s) over the draws, [0, 1] cut into [`BINS`] intervals.
+/// H̄(s) = (1/A) Σ_a H(μ_sa) in nats, where μ_sa is the distribution of π(a|s) over the draws, [0, 1] cut into 10 intervals.
 ///
 /// # Errors
 /// Answers of other draws than the belief's.

@@ -8,7 +8,7 @@ use crate::{Belief, Chosen, InquiryError, Round, Selecting, Selection};
 const MAX_BRANCHES: usize = 64;
 
 /// At most `n` questions worth asking together. The first is the one [`crate::select`] gives; each further one is chosen by its
-/// expected score once the answers to those before it are in, over the [`MAX_BRANCHES`] most probable combinations of answers. So
+/// expected score once the answers to those before it are in, over the 64 most probable combinations of answers. So
 /// questions that would tell the same are not asked twice, and scores that are information add up to the joint information
 /// (chain rule). No question comes twice.
 ///

@@ -3,6 +3,23 @@
 //! Everything works on posterior draws and their weights, whatever the world: a [`Round`] holds the loss of the current policy
 //! in each situation under each draw, and for every question how probable each answer is under each draw. [`tabular`]
 //! makes them for decision processes, [`table`] for tables. New evidence is weighed by re-weighting the draws; no chain is run.
+//!
+//! ```
+//! use inquiry::{Answers, Belief, Losses, Question, QuestionKind, Round, Selecting, Selection, Strategy, select};
+//!
+//! // Two draws. Under the first the current policy loses .3, and a person would say the first of two answers with .9.
+//! let answers = Answers::table(2, vec![0.9, 0.2, 0.1, 0.8])?;
+//! let round = Round {
+//!     belief: Belief::equal(2)?,
+//!     losses: Losses::new(2, vec![0.3, 0.0])?,
+//!     questions: vec![Question { kind: QuestionKind::Action, situation: 0, answers, feasible: true }],
+//!     alternatives: None,
+//! };
+//! let strategy = Strategy::RiskInformation { epsilon: 0.1 };
+//! let selecting = Selecting { strategy, effort: None, hold_out_share: 0.1, seed: 1 };
+//! assert!(matches!(select(&round, &selecting, 1)?, Selection::Ask(chosen) if chosen.question == 0));
+//! # Ok::<(), inquiry::InquiryError>(())
+//! ```
 
 mod action_entropy;
 mod answers;
