@@ -21,9 +21,11 @@ pub fn nodes() -> Vec<Node> {
         node::<operator_ui::Settings>(operator_ui::run),
         node::<performance_bounds::Settings>(performance_bounds::run),
         node::<placement_planner::Settings>(placement_planner::run),
+        node::<policy_optimizer::Settings>(policy_optimizer::run),
         node::<reward_posterior::Settings>(reward_posterior::run),
         node::<session_recorder::Settings>(session_recorder::run),
         node::<simulated_table::Settings>(simulated_table::run),
+        node::<simulated_world::Settings>(simulated_world::run),
     ]
 }
 

@@ -14,7 +14,9 @@ from launch.conditions import IfCondition, UnlessCondition
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution, PythonExpression
 
 CONFIG = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
-NODES = ["simulated_table", "reward_posterior", "performance_bounds", "active_query", "placement_planner"]
+NODES = ["reward_posterior", "performance_bounds", "active_query"]
+OF_A_TABLE = ["simulated_table", "placement_planner"]
+OF_A_WORLD = ["simulated_world", "policy_optimizer"]
 
 
 def node(name, condition=None, parameters=()):
@@ -38,11 +40,15 @@ def generate_launch_description():
     bag = LaunchConfiguration("bag")
     simulated = PythonExpression(["'", LaunchConfiguration("demonstrator"), "' == 'simulated'"])
     recorded = PythonExpression(["'", bag, "' != ''"])
+    of_a_world = ["'", LaunchConfiguration("about"), "' == 'world'"]
+    is_world, is_table = IfCondition(PythonExpression(of_a_world)), UnlessCondition(PythonExpression(of_a_world))
+    by_scenario = PythonExpression(["'world' if '", LaunchConfiguration("scenario"), "' in ('grid', 'driving') else 'table'"])
     scenario_file = [PathJoinSubstitution([CONFIG, LaunchConfiguration("scenario")]), ".yaml"]
     journal = ["journal:=", LaunchConfiguration("journal")]
     return LaunchDescription([
         DeclareLaunchArgument("executable", default_value="apprentice", description="the program"),
-        DeclareLaunchArgument("scenario", default_value="flowers", description="flowers or spoon"),
+        DeclareLaunchArgument("scenario", default_value="flowers", description="flowers, spoon, grid or driving"),
+        DeclareLaunchArgument("about", default_value=by_scenario, description="table or world"),
         DeclareLaunchArgument("params_file", default_value=scenario_file, description="parameters of all nodes"),
         DeclareLaunchArgument("namespace", default_value="/apprentice", description="where the topics are"),
         DeclareLaunchArgument("demonstrator", default_value="simulated", description="simulated or human"),
@@ -52,6 +58,8 @@ def generate_launch_description():
         DeclareLaunchArgument("log_level", default_value="info", description="debug, info, warn or error"),
         node("session_recorder", IfCondition(recorded), [["output:=", bag]]),
         *[node(name, None, [journal] if name == "reward_posterior" else []) for name in NODES],
+        *[node(name, is_table) for name in OF_A_TABLE],
+        *[node(name, is_world) for name in OF_A_WORLD],
         node("operator_ui", UnlessCondition(LaunchConfiguration("headless"))),
         node("demonstrator", IfCondition(simulated)),
     ])

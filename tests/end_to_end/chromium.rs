@@ -167,6 +167,20 @@ impl Page {
         self.mouse("mouseReleased", at, 0);
     }
 
+    /// Presses a key on whatever has the focus.
+    pub fn key(&mut self, key: &str) {
+        let code = match key {
+            "ArrowRight" => 39,
+            "ArrowLeft" => 37,
+            "Enter" => 13,
+            other => panic!("add the key {other} to this list"),
+        };
+        for kind in ["rawKeyDown", "keyUp"] {
+            let params = json!({"type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code});
+            self.command("Input.dispatchKeyEvent", params);
+        }
+    }
+
     fn mouse(&mut self, kind: &str, at: (f64, f64), buttons: u32) {
         let button = if kind == "mouseMoved" && buttons == 0 { "none" } else { "left" };
         let params = json!({"type": kind, "x": at.0, "y": at.1, "button": button, "buttons": buttons, "clickCount": 1});

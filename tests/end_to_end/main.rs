@@ -1,6 +1,7 @@
 //! Whole lessons: the executable with every node in a process of its own, over DDS on loopback, as a person starts it.
 
 mod bad_command_lines;
+mod caution;
 mod chromium;
 mod foreign_bags;
 mod killed_nodes;
@@ -13,3 +14,4 @@ mod suite;
 mod tabular;
 mod taught;
 mod whole_loop;
+mod worlds;

@@ -237,7 +237,7 @@ class PolicySet(IdlStruct, typename="apprentice_msgs::msg::dds_::PolicySet_"):
     id: str = ""
     number: uint64 = 0
     world_id: str = ""
-    chains_used: uint32 = 0
+    draws_used: uint32 = 0
     policies: sequence[PolicyToJudge] = field(default_factory=list)
 
 

@@ -3,7 +3,7 @@
 use crate::files::{self, File};
 
 /// The crates of the nodes.
-const NODES: [&str; 11] = [
+const NODES: [&str; 13] = [
     "active_query",
     "bag_player",
     "bringup",
@@ -11,9 +11,11 @@ const NODES: [&str; 11] = [
     "operator_ui",
     "performance_bounds",
     "placement_planner",
+    "policy_optimizer",
     "reward_posterior",
     "session_recorder",
     "simulated_table",
+    "simulated_world",
     "replay",
 ];
 

@@ -2,7 +2,7 @@
 
 use crate::Settings;
 use apprentice_msgs::msg::{LessonStatus, PolicyBounds, Posterior, RiskBound};
-use exchange::{ROBUST_POLICY, is_about_a_table};
+use exchange::{ROBUST_POLICY, is_about_a_table, robust_set_id};
 
 /// The state of a lesson about a world, from bounds on the robot's policy under the posterior; none when the lesson is about a
 /// table, or the bounds are of another posterior or of somebody else's policies.
@@ -11,7 +11,11 @@ pub fn world_lesson(settings: &Settings, posterior: &Posterior, bounds: &PolicyB
     if is_about_a_table(posterior) || posterior.world.hash.is_empty() || !of_posterior {
         return None;
     }
-    if !bounds.set_id.starts_with("robust-") {
+    // The policy of an earlier posterior may be judged under this one, until its own has come.
+    let (revision, preference) = bounds.set_id.strip_prefix("robust-")?.split_once('-')?;
+    if bounds.set_id != robust_set_id(revision.parse().ok()?, preference.parse().ok()?)
+        || revision.parse() != Ok(posterior.revision)
+    {
         return None;
     }
     let robust = bounds.policies.iter().find(|policy| policy.id == ROBUST_POLICY)?;
@@ -120,7 +124,9 @@ mod tests {
         };
         none(posterior(2), PolicyBounds { revision: 2, ..good.clone() });
         none(posterior(2), PolicyBounds { evidence_hash: "x".into(), ..good.clone() });
-        none(posterior(2), PolicyBounds { set_id: "mine".into(), ..good.clone() });
+        for set_id in ["mine", "robust-2-0", "robust-3", "robust-3-x", "robust-3-00"] {
+            none(posterior(2), PolicyBounds { set_id: set_id.into(), ..good.clone() });
+        }
         none(posterior(2), PolicyBounds { policies: vec![], ..good.clone() });
         none(Posterior { world: WorldReference::default(), ..posterior(2) }, good.clone());
         let table = TableScene { width_m: 1.0, ..TableScene::default() };

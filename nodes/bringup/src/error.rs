@@ -17,7 +17,9 @@ pub enum BringupError {
     #[error(transparent)]
     Name(#[from] NameError),
     /// No scenario of that name.
-    #[error("there is no scenario '{got}'{hint}; known are flowers and spoon, or give the path of a .yaml file")]
+    #[error(
+        "there is no scenario '{got}'{hint}; known are flowers, spoon, grid and driving; or give the path of a .yaml file"
+    )]
     UnknownScenario {
         /// Got.
         got: String,

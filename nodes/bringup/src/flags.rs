@@ -10,6 +10,7 @@ Examples:
   apprentice                                    a lesson with a simulated person; the page opens on 127.0.0.1
   apprentice --demonstrator human               you answer, in the browser
   apprentice --scenario spoon --seed 7          another task, another draw
+  apprentice --scenario grid                    a world to act in: what caution costs, and what may go wrong
   apprentice --headless --until-taught --summary lesson.json
   apprentice --session bags/mine                begin or continue the session in that folder
 
@@ -39,7 +40,7 @@ pub enum Who {
 #[derive(Debug, Clone, PartialEq, Parser)]
 #[command(name = "apprentice", version, after_help = EXAMPLES, disable_help_subcommand = true, max_term_width = 110)]
 pub struct Flags {
-    /// The task: flowers, spoon, or the path of a parameter file [default: flowers]
+    /// The task: flowers, spoon, grid, driving, or the path of a parameter file [default: flowers]
     #[arg(long, value_name = "NAME|FILE")]
     pub scenario: Option<String>,
     /// Who answers the questions [default: simulated]

@@ -1,16 +1,18 @@
 //! Which nodes a lesson needs, and the command line of each.
 
-use crate::{BringupError, Demonstrator, NodeInfo, Session, Settings, stop_stage};
+use crate::{BringupError, Demonstrator, NodeInfo, Session, Settings, Subject, read_parameters, stop_stage};
 use bus::Arguments;
 use std::path::PathBuf;
 
 /// In the order of starting: the recorder first, so that the bag holds everything; who answers last.
-const ORDER: [&str; 8] = [
+const ORDER: [&str; 10] = [
     "session_recorder",
     "simulated_table",
+    "simulated_world",
     "reward_posterior",
     "performance_bounds",
     "active_query",
+    "policy_optimizer",
     "placement_planner",
     "operator_ui",
     "demonstrator",
@@ -50,7 +52,10 @@ pub fn launch(
     nodes: &[NodeInfo],
     common: &Common,
 ) -> Result<Vec<LaunchNode>, BringupError> {
+    let subject = Subject::of(&read_parameters(&session.path("parameters.yaml"))?);
     let wanted = ORDER.into_iter().filter(|&name| match name {
+        "simulated_table" | "placement_planner" => subject == Subject::Table,
+        "simulated_world" | "policy_optimizer" => subject == Subject::World,
         "session_recorder" => settings.record,
         "operator_ui" => !settings.headless,
         "demonstrator" => settings.demonstrator == Demonstrator::Simulated,
@@ -151,6 +156,24 @@ mod tests {
         assert_eq!(names(&Settings::default()), all);
         assert_eq!(names(&Settings { headless: true, record: false, ..Settings::default() }), [all[1], all[3]]);
         assert_eq!(names(&Settings { demonstrator: Demonstrator::Human, ..Settings::default() }), all[..3]);
+    }
+
+    #[test]
+    fn a_lesson_about_a_world_has_no_table_and_a_table_no_world() {
+        let of = |text: &str| {
+            let root = tempfile::tempdir().expect("a folder");
+            let settings =
+                Settings { session: root.path().join("s").to_string_lossy().into_owned(), ..Settings::default() };
+            let session = Session::open(&settings, "").expect("opens");
+            std::fs::write(session.path("parameters.yaml"), text).expect("writes");
+            let nodes = ["simulated_table", "simulated_world", "policy_optimizer", "placement_planner", "active_query"];
+            let common = Common { log_level: "info".to_owned(), ..Common::default() };
+            let launched = launch(&settings, &session, &nodes.map(node), &common).expect("good parameters");
+            launched.iter().map(|node| node.name).collect::<Vec<_>>()
+        };
+        assert_eq!(of(""), ["simulated_table", "active_query", "placement_planner"]);
+        let world = "/**/simulated_world:\n  ros__parameters: {}\n";
+        assert_eq!(of(world), ["simulated_world", "active_query", "policy_optimizer"]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The numbers of a lesson.
 
 use crate::Topic;
-use apprentice_msgs::msg::{EvidenceReceipt, EvidenceRecord, LessonStatus, PlacementPlan};
+use apprentice_msgs::msg::{EvidenceReceipt, EvidenceRecord, LessonStatus, PlacementPlan, RobustPolicy};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -19,6 +19,8 @@ pub struct Ledger {
     pub answers: u64,
     /// The newest plan for the table as it is.
     pub plan: Option<PlacementPlan>,
+    /// The newest policy of a lesson about a world.
+    pub policy: Option<RobustPolicy>,
     /// From "accepted" to the next question or the lesson's end, milliseconds.
     latencies_ms: Vec<f64>,
     /// When each answer was accepted that has no next question yet, by revision.
@@ -50,6 +52,7 @@ impl Ledger {
                 self.answers = answers.count() as u64;
             }
             Topic::Plan(plan) if plan.query_id.is_empty() => self.plan = Some(PlacementPlan::clone(plan)),
+            Topic::Policy(policy) => self.policy = Some(RobustPolicy::clone(policy)),
             _ => {}
         }
     }
@@ -66,7 +69,10 @@ impl Ledger {
                 let taught = lesson.state == LessonStatus::TAUGHT;
                 plan.revision >= lesson.revision && (plan.inside_bound || !taught)
             }
-            _ => false,
+            _ => match (&self.policy, &self.lesson) {
+                (Some(policy), Some(lesson)) => policy.revision >= lesson.revision,
+                _ => false,
+            },
         }
     }
 

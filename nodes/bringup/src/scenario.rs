@@ -5,8 +5,12 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Name and parameter file of every scenario built in.
-pub const BUILT_IN: [(&str, &str); 2] =
-    [("flowers", include_str!("../../../config/flowers.yaml")), ("spoon", include_str!("../../../config/spoon.yaml"))];
+pub const BUILT_IN: [(&str, &str); 4] = [
+    ("flowers", include_str!("../../../config/flowers.yaml")),
+    ("spoon", include_str!("../../../config/spoon.yaml")),
+    ("grid", include_str!("../../../config/grid.yaml")),
+    ("driving", include_str!("../../../config/driving.yaml")),
+];
 const MAX_BYTES: u64 = 1 << 20;
 
 /// A parameter file for all nodes of a lesson.
@@ -42,6 +46,26 @@ impl Scenario {
     }
 }
 
+/// What a lesson is about, which decides what nodes it needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    /// A table to set.
+    Table,
+    /// A world to act in: its parameters name `simulated_world`.
+    World,
+}
+
+impl Subject {
+    /// Of a scenario's parameters. What is wrong with them is for the nodes to say.
+    pub fn of(text: &str) -> Self {
+        let is_world = |pattern: &String| pattern.rsplit('/').next() == Some("simulated_world");
+        match bus::sections_of(text) {
+            Ok(sections) if sections.iter().any(is_world) => Self::World,
+            _ => Self::Table,
+        }
+    }
+}
+
 /// The text of a parameter file.
 ///
 /// # Errors
@@ -59,7 +83,15 @@ pub fn read_parameters(path: &Path) -> Result<String, BringupError> {
 
 #[cfg(test)]
 mod tests {
-    use super::Scenario;
+    use super::{BUILT_IN, Scenario, Subject};
+
+    #[test]
+    fn a_scenario_that_names_a_simulated_world_is_about_a_world() {
+        let subjects = BUILT_IN.map(|(_, text)| Subject::of(text));
+        assert_eq!(subjects, [Subject::Table, Subject::Table, Subject::World, Subject::World]);
+        assert_eq!(Subject::of("/**/simulated_world_2:\n  ros__parameters: {}"), Subject::Table);
+        assert_eq!(Subject::of("not: [a, parameter file"), Subject::Table);
+    }
 
     #[test]
     fn an_unknown_scenario_names_the_known_ones_and_the_nearest() {

@@ -63,7 +63,7 @@ impl NodeSettings for Settings {
     const PARAMETERS: &'static [ParameterSpec] = &[
         ParameterSpec {
             name: "scenario",
-            about: "flowers, spoon, or the path of a parameter file; empty: flowers, or what the session was begun with",
+            about: "flowers, spoon, grid, driving, or the path of a parameter file; empty: flowers, or what the session was begun with",
             range: Range::Any,
         },
         ParameterSpec {

@@ -1,5 +1,6 @@
 //! What happens in a lesson, one plain sentence each.
 
+use crate::world_story::WorldStory;
 use crate::{Kind, Topic};
 use apprentice_msgs::msg::{
     EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementPlan, PlacementQuery,
@@ -27,6 +28,7 @@ pub struct Story {
     told_state: Option<(u8, u64)>,
     told_plan: Option<u64>,
     widest_m: f64,
+    world: WorldStory,
 }
 
 impl Story {
@@ -46,11 +48,16 @@ impl Story {
                 self.bounds = Some(bounds.clone());
                 lines.extend(self.bound_and_state());
             }
+            Topic::Lesson(lesson) if lesson.epsilon_loss.is_finite() && lesson.epsilon_loss > 0.0 => {
+                lines.extend(self.world.lesson(lesson));
+            }
             Topic::Lesson(lesson) => {
                 self.lesson = Some(lesson.clone());
                 lines.extend(self.bound_and_state());
             }
             Topic::Plan(plan) => lines.extend(self.plan(plan)),
+            Topic::World(world) => lines.extend(self.world.world(world)),
+            Topic::Policy(policy) => lines.extend(self.world.policy(policy)),
             Topic::Receipt(_) => {}
         }
         lines.extend(self.told_bound.and_then(|revision| self.release(revision)));
@@ -206,7 +213,7 @@ fn bound_sentence(bounds: &PerformanceBounds, epsilon_m: f64, widest_m: f64) -> 
 }
 
 /// A bar from 0 to the widest bound so far, with a mark at ε.
-fn bar(bound_m: f64, epsilon_m: f64, widest_m: f64) -> String {
+pub(crate) fn bar(bound_m: f64, epsilon_m: f64, widest_m: f64) -> String {
     let full_m = widest_m.max(1.5 * epsilon_m).max(f64::MIN_POSITIVE);
     let cell = |m: f64| ((m / full_m * BAR as f64).round() as usize).min(BAR);
     let (filled, mark) = (cell(bound_m), cell(epsilon_m));
@@ -242,6 +249,6 @@ fn centimetres(metres: f64) -> String {
 }
 
 /// Others' text, cut and without characters that command a terminal.
-fn short(text: &str) -> String {
+pub(crate) fn short(text: &str) -> String {
     crate::log_line::harmless(text).chars().take(MAX_TEXT).collect()
 }

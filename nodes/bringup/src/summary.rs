@@ -1,7 +1,7 @@
 //! What is left of a lesson when it is over: one JSON object.
 
 use crate::{Ledger, SessionRecord};
-use apprentice_msgs::msg::LessonStatus;
+use apprentice_msgs::msg::{LessonStatus, RobustPolicy};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -26,6 +26,15 @@ pub struct Summary {
     pub last_bound_m: Option<f64>,
     /// The bound to reach.
     pub epsilon_m: Option<f64>,
+    /// About a world: the newest bound on what the robot's policy loses, as a share of what choosing at random loses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub last_bound_loss: Option<f64>,
+    /// About a world: the bound to reach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub epsilon_loss: Option<f64>,
+    /// About a world: what the robot would do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub policy: Option<PolicySummary>,
     /// Where the robot would put the target, from above: x, y.
     pub placement_m: Option<[f64; 2]>,
     /// From the start of the command to now.
@@ -50,6 +59,25 @@ pub struct Summary {
     pub commit: String,
     /// Per node.
     pub nodes: BTreeMap<&'static str, NodeCount>,
+}
+
+/// The robot's policy in a world, in short; what is not known is null.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PolicySummary {
+    /// Whether it is proved the best.
+    pub optimal: bool,
+    /// Weight of the mean against the worst case.
+    pub lambda: f64,
+    /// The worst 1 − α of the rewards are the worst case.
+    pub alpha: f64,
+    /// Mean return.
+    pub expected_return: Option<f64>,
+    /// Mean of the worst case.
+    pub conditional_value_at_risk: Option<f64>,
+    /// The same on draws that did not choose it.
+    pub held_out_cvar: Option<f64>,
+    /// In words.
+    pub reason: String,
 }
 
 /// How often a node was started, and how often it died unasked.
@@ -107,6 +135,7 @@ impl Summary {
     ) -> Self {
         let lesson = ledger.lesson.as_ref();
         let finite = |value: f64| value.is_finite().then_some(value);
+        let about_world = ledger.policy.is_some();
         let state = lesson.map_or(LessonStatus::ASKING, |lesson| lesson.state);
         let own_reason = lesson.map_or("no question was asked", |lesson| lesson.reason.as_str());
         Self {
@@ -123,6 +152,17 @@ impl Summary {
             demonstrations: lesson.map_or(0, |lesson| lesson.demonstrations),
             last_bound_m: lesson.and_then(|lesson| finite(lesson.bound_m)),
             epsilon_m: lesson.and_then(|lesson| finite(lesson.epsilon_m)),
+            last_bound_loss: lesson.and_then(|lesson| finite(lesson.loss_bound)).filter(|_| about_world),
+            epsilon_loss: lesson.and_then(|lesson| finite(lesson.epsilon_loss)).filter(|_| about_world),
+            policy: ledger.policy.as_ref().map(|policy| PolicySummary {
+                optimal: policy.outcome == RobustPolicy::OPTIMAL,
+                lambda: policy.lambda,
+                alpha: policy.alpha,
+                expected_return: finite(policy.expected_return),
+                conditional_value_at_risk: finite(policy.conditional_value_at_risk),
+                held_out_cvar: finite(policy.held_out_cvar),
+                reason: policy.reason.clone(),
+            }),
             placement_m: ledger.plan.as_ref().map(|plan| [plan.robust_placement.x, plan.robust_placement.y]),
             wall_time_s: now.as_secs_f64(),
             start_to_first_question_s: ledger.first_question.map(|at| at.as_secs_f64()),

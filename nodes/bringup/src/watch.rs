@@ -2,7 +2,8 @@
 
 use crate::Settings;
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceReceipt, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, TableScene,
+    EvidenceLog, EvidenceReceipt, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, RobustPolicy,
+    TableScene, TabularWorld,
 };
 use bus::{Arguments, Bus, Graph, NodeError, Qos, Stopper};
 use std::sync::mpsc::{Sender, channel};
@@ -25,6 +26,10 @@ pub enum Topic {
     Lesson(LessonStatus),
     /// The robot's plan.
     Plan(Box<PlacementPlan>),
+    /// The world.
+    World(Box<TabularWorld>),
+    /// What the robot would do in it.
+    Policy(Box<RobustPolicy>),
 }
 
 /// A thread that listens.
@@ -87,5 +92,7 @@ fn open(graph: &Graph, arguments: &Arguments, settings: &Settings) -> Result<Bus
     bus.subscribe("bounds", Qos::State, Topic::Bounds)?;
     bus.subscribe("lesson", Qos::State, Topic::Lesson)?;
     bus.subscribe("plan", Qos::State, |plan| Topic::Plan(Box::new(plan)))?;
+    bus.subscribe("world", Qos::State, |world| Topic::World(Box::new(world)))?;
+    bus.subscribe("robust_policy", Qos::State, |policy| Topic::Policy(Box::new(policy)))?;
     Ok(bus)
 }

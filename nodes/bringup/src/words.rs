@@ -19,8 +19,23 @@ pub(crate) fn closing_words(summary: &Summary) -> Vec<String> {
     let centimetres = |m: Option<f64>| m.map_or("none".to_owned(), |m| format!("{:.1} cm", 100.0 * m));
     let milliseconds = |ms: Option<f64>| ms.map_or("none".to_owned(), |ms| format!("{ms:.0} ms"));
     let latency = summary.answer_to_next_question_ms;
+    let state = format!("{}: {}", summary.state.replace('_', " "), summary.why);
+    if let Some(policy) = &summary.policy {
+        let percent = |share: Option<f64>| share.map_or("none".to_owned(), |share| format!("{:.1} %", 100.0 * share));
+        let (bound, goal) = (percent(summary.last_bound_loss), percent(summary.epsilon_loss));
+        let mut words = vec![
+            state,
+            format!(
+                "{} pieces of evidence, last bound on the loss {bound} (\u{3b5} = {goal}), {:.1} s",
+                summary.demonstrations, summary.wall_time_s
+            ),
+            policy.reason.clone(),
+        ];
+        words.extend(summary.bag.iter().map(|bag| format!("the bag is finished: {bag}")));
+        return words;
+    }
     let mut words = vec![
-        format!("{}: {}", summary.state.replace('_', " "), summary.why),
+        state,
         format!(
             "{} questions, {} answers, last bound {} (\u{3b5} = {}), {:.1} s",
             summary.questions_asked,

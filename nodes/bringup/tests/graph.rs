@@ -142,7 +142,7 @@ fn the_launch_files_are_well_formed_and_start_nodes_that_exist() {
             _ => {}
         }
     }
-    assert!(started.len() == 8 && started.iter().all(|name| exists(name)), "{started:?}");
+    assert!(started.len() == 10 && started.iter().all(|name| exists(name)), "{started:?}");
     let python = read("config/launch/apprentice.launch.py");
     for name in &started {
         assert!(python.contains(&format!("\"{name}\"")), "the Python launch file does not start {name}");

@@ -4,6 +4,8 @@ import { element, footprint } from "./drawing.js";
 
 const CONFIDENCE = { sure: "sure", fairly: "fairly sure", guess: "a guess" };
 const KINDS = { skip: "Skipped", cant_tell: "Can't tell", stop: "Stopped the lesson" };
+const COUNTED = { actions: (n) => `Showed a walk of ${n} steps`, preference: (n) => `Compared ${n} walks`, critique: (n) => `Marked ${n} parts of a walk`, history: (n) => `${n} attempts of a learner` };
+const MARKS = { skip: "↷", cant_tell: "?", stop: "■", placement: "•", actions: "↝", preference: "≷", critique: "✎", history: "↗" };
 
 /** Whether an answer counts at the moment and may be taken back. */
 export function canUndo(answer) {
@@ -22,7 +24,7 @@ export function fate(answer) {
 
 /** Draws the list, newest first; `on` has undo(answer), redo(answer) and look(answer or null). */
 export function drawAnswers(list, answers, on) {
-  const focused = document.activeElement?.closest?.("#answers [data-id]")?.dataset.id;
+  const focused = list.contains(document.activeElement) ? document.activeElement.closest("[data-id]")?.dataset.id : undefined;
   const known = new Map([...list.children].map((item) => [item.dataset.id, item]));
   const items = answers.toReversed().map((answer) => {
     const key = JSON.stringify([answer.state, answer.revision, answer.reason, answer.undo]);
@@ -48,7 +50,7 @@ function build(answer, on) {
   const words = document.createElement("div");
   words.className = "entry-words";
   const title = document.createElement("strong");
-  title.textContent = answer.kind === "placement" ? `${answer.scene?.target.label ?? "Target"} at ${(answer.x_m * 100).toFixed(1)} × ${(answer.y_m * 100).toFixed(1)} cm` : KINDS[answer.kind];
+  title.textContent = answer.kind === "placement" ? `${answer.scene?.target.label ?? "Target"} at ${(answer.x_m * 100).toFixed(1)} × ${(answer.y_m * 100).toFixed(1)} cm` : COUNTED[answer.kind]?.(answer.n) ?? KINDS[answer.kind];
   const detail = document.createElement("span");
   detail.textContent = [answer.kind === "placement" ? CONFIDENCE[answer.confidence] : null, answer.mine ? "you" : answer.source, fate(answer)].filter(Boolean).join(" · ");
   words.append(title, detail);
@@ -89,6 +91,6 @@ function mark(kind) {
   const made = document.createElement("span");
   made.className = "entry-mark";
   made.setAttribute("aria-hidden", "true");
-  made.textContent = { skip: "↷", cant_tell: "?", stop: "■", placement: "•" }[kind];
+  made.textContent = MARKS[kind];
   return made;
 }

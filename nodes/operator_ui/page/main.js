@@ -7,13 +7,15 @@ import { colour, range } from "./maps.js";
 import { drawReceipt } from "./receipt.js";
 import { TableView } from "./table.js";
 import { drawTrend } from "./trend.js";
+import { WorldLesson } from "./world.js";
 
 const $ = (id) => document.getElementById(id);
-const state = { question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null };
+const state = { question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [] };
 const own = { question: undefined, at: null, revealed: false, heat: false, sent: null, sentFor: null, correcting: false, look: null, problem: "" };
 
 const table = new TableView($("table"), { moved, submitted: submit, hovered });
 const link = new Link({ status, sections, refused, notice });
+const world = new WorldLesson(link, { undo, redo });
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 // ---- what is on the table now -------------------------------------------------------------------------------------
@@ -39,7 +41,9 @@ function sections(changed) {
   // A node that was started anew knows only the newest bounds; this page may know the older ones.
   const first = changed.trend?.[0]?.revision ?? 0;
   if (first > 0) changed.trend = [...state.trend.filter((point) => point.revision < first), ...changed.trend];
+  if (changed.loss_trend?.[0]?.revision > 0) changed.loss_trend = [...state.loss_trend.filter((point) => point.revision < changed.loss_trend[0].revision), ...changed.loss_trend];
   Object.assign(state, changed);
+  world.settle(state);
   const sent = state.answers.find((answer) => answer.id === own.sent);
   if (sent?.state === "refused" && own.sentFor !== null) Object.assign(own, { sentFor: null, problem: `Refused: ${sent.reason}` });
   if (own.correcting && own.sentFor === "" && sent?.state === "accepted") Object.assign(own, { correcting: false, sentFor: null, at: null, revealed: false });
@@ -114,8 +118,8 @@ function send(command, query) {
   render();
 }
 
-const undo = (answer) => send({ type: "retract", id: newId(), evidence_id: answer.id });
-const redo = (answer) => send({ type: "again", id: newId(), evidence_id: answer.id });
+function undo(answer) { send({ type: "retract", id: newId(), evidence_id: answer.id }); }
+function redo(answer) { send({ type: "again", id: newId(), evidence_id: answer.id }); }
 const lastActive = () => state.answers.findLast(canUndo);
 const isActive = (answer) => answer.state === "accepted" || answer.state === "pending";
 const sameSpot = (a, b) => a.x_m === b.x_m && a.y_m === b.y_m && a.scene?.id === b.scene?.id;
@@ -150,8 +154,15 @@ function text(id, words, value) {
   if (value !== undefined) node.dataset.value = value ?? "";
 }
 
+/** A lesson about a world has a page of its own; what has a table is shown as a table. */
+const isAboutWorld = () => Boolean(state.world) && !state.scene && !state.question;
+
 function render() {
+  const aboutWorld = isAboutWorld();
+  $("lesson-table").hidden = aboutWorld;
+  $("lesson-world").hidden = !aboutWorld;
   renderLesson();
+  if (aboutWorld) world.render(state);
   renderTable();
   renderAnswer();
   renderProgress();

@@ -21,9 +21,12 @@ const WORDS = [
 const fixed = (v, digits) => (v === null ? "–" : v.toFixed(digits));
 const short = (v) => (v === null ? "–" : v.toPrecision(3));
 
+/** The lines of a receipt that every bound shares, from its confidence on. */
+export const COMMON = () => WORDS.slice(2).filter(([key]) => key !== "beta" && key !== "delta_spent");
+
 /** Fills the definition list; each number is also there in full in `data-value`. */
-export function drawReceipt(list, bounds) {
-  list.replaceChildren(...(bounds ? WORDS : []).flatMap(([key, name, value]) => {
+export function drawReceipt(list, bounds, lines = WORDS) {
+  list.replaceChildren(...(bounds ? lines : []).flatMap(([key, name, value]) => {
     const term = document.createElement("dt"), text = document.createElement("dd");
     term.textContent = name;
     text.textContent = value(bounds) ?? "–";

@@ -3,8 +3,9 @@
 import { element } from "./drawing.js";
 import { cm } from "./geometry.js";
 
-/** Draws the bounds in centimetres over revisions; looks without a bound sit at the top as hollow marks. */
-export function drawTrend(svg, trend, logarithmic) {
+/** Draws the bounds, in centimetres or per cent, over revisions; looks without a bound sit at the top as hollow marks. */
+export function drawTrend(svg, trend, logarithmic, unit = "cm") {
+  const shown = unit === "cm" ? cm : (v) => (v === null ? "–" : `${(v * 100).toFixed(1)} ${unit}`);
   const box = svg.parentElement.getBoundingClientRect(), W = Math.max(220, box.width), H = Math.max(90, box.height);
   const m = { l: 40, r: 34, t: 12, b: 22 }, w = W - m.l - m.r, h = H - m.t - m.b;
   svg.setAttribute("viewBox", `0 0 ${W} ${H}`);
@@ -19,7 +20,7 @@ export function drawTrend(svg, trend, logarithmic) {
     pieces.push(element("path", { class: "grid", d: `M${m.l} ${y(v).toFixed(1)}H${(W - m.r).toFixed(1)}` }));
     pieces.push(element("text", { class: "axis", x: m.l - 6, y: y(v) + 4, "text-anchor": "end" }, `${v}`));
   }
-  pieces.push(element("text", { class: "axis", x: m.l - 6, y: H - 6, "text-anchor": "end" }, "cm"));
+  pieces.push(element("text", { class: "axis", x: m.l - 6, y: H - 6, "text-anchor": "end" }, unit));
   const stride = Math.max(1, Math.ceil(lastRevision / Math.max(3, w / 44)));
   for (let r = 0; r <= lastRevision; r += stride) pieces.push(element("text", { class: "axis", x: x(r), y: H - 6, "text-anchor": "middle" }, `${r}`));
   if (epsilon !== null) {
@@ -36,11 +37,11 @@ export function drawTrend(svg, trend, logarithmic) {
   trend.forEach((p, i) => {
     const none = p.bound_m === null, last = i === trend.length - 1;
     const dot = element("circle", { class: `dot${none ? " none" : ""}${last ? " last" : ""}`, cx: x(p.revision), cy: none ? m.t + 2 : y(p.bound_m * 100), r: last ? 4.5 : 3.2 });
-    dot.append(element("title", {}, none ? `revision ${p.revision}: no bound. ${p.reason}` : `revision ${p.revision}: ${cm(p.bound_m)}`));
+    dot.append(element("title", {}, none ? `revision ${p.revision}: no bound. ${p.reason}` : `revision ${p.revision}: ${shown(p.bound_m)}`));
     pieces.push(dot);
   });
   svg.replaceChildren(...pieces);
-  svg.setAttribute("aria-label", trend.length ? `Bound against the goal of ${cm(epsilon)}: ${trend.slice(-12).map((p) => `revision ${p.revision} ${p.bound_m === null ? "no bound" : cm(p.bound_m)}`).join(", ")}` : "No bound yet");
+  svg.setAttribute("aria-label", trend.length ? `Bound against the goal of ${shown(epsilon)}: ${trend.slice(-12).map((p) => `revision ${p.revision} ${p.bound_m === null ? "no bound" : shown(p.bound_m)}`).join(", ")}` : "No bound yet");
 }
 
 function gridValues(top, bottom, logarithmic) {

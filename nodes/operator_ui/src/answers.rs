@@ -213,6 +213,8 @@ impl Answers {
             self.accepted(placement(message), Some(&message.scene), record.sequence);
         } else if let Some(message) = record.response.first() {
             self.accepted(response(message), None, record.sequence);
+        } else if let Some(view) = other(record) {
+            self.accepted(view, None, record.sequence);
         } else if let Some(message) = record.retraction.first() {
             let entry = self.entries.iter_mut().find(|entry| entry.view.id == message.evidence_id);
             if let Some(entry) = entry {
@@ -269,11 +271,38 @@ fn placement(message: &PlacementDemonstration) -> AnswerView {
             PlacementDemonstration::CONFIDENCE_FAIRLY => Confidence::Fairly,
             _ => Confidence::Guess,
         }),
+        n: None,
         state: Fate::Pending,
         revision: None,
         reason: String::new(),
         undo: None,
     }
+}
+
+/// Evidence about a world or about trajectories, whoever gave it.
+fn other(record: &EvidenceRecord) -> Option<AnswerView> {
+    let none = String::new();
+    let (kind, id, query_id, source, n) = None
+        .or(record.actions.first().map(|m| (Kind::Actions, &m.id, &none, &m.source, m.states.len())))
+        .or(record.preference.first().map(|m| (Kind::Preference, &m.id, &m.query_id, &m.source, m.trajectories.len())))
+        .or(record.critique.first().map(|m| (Kind::Critique, &m.id, &m.query_id, &m.source, m.segments.len())))
+        .or(record.history.first().map(|m| (Kind::History, &m.id, &none, &m.source, m.demonstrations.len())))?;
+    Some(AnswerView {
+        id: id.clone(),
+        kind,
+        query_id: query_id.clone(),
+        source: source.clone(),
+        mine: false,
+        scene: None,
+        x_m: None,
+        y_m: None,
+        confidence: None,
+        n: u32::try_from(n).ok(),
+        state: Fate::Pending,
+        revision: None,
+        reason: String::new(),
+        undo: None,
+    })
 }
 
 fn response(message: &QueryResponse) -> AnswerView {
@@ -291,6 +320,7 @@ fn response(message: &QueryResponse) -> AnswerView {
         x_m: None,
         y_m: None,
         confidence: None,
+        n: None,
         state: Fate::Pending,
         revision: None,
         reason: String::new(),

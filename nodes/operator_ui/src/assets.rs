@@ -17,7 +17,7 @@ const JS: &str = "text/javascript; charset=utf-8";
 const SVG: &str = "image/svg+xml";
 
 /// Every file.
-pub(crate) const ASSETS: [Asset; 12] = [
+pub(crate) const ASSETS: [Asset; 19] = [
     Asset { path: "/", media_type: HTML, body: include_str!("../page/index.html") },
     Asset { path: "/style.css", media_type: CSS, body: include_str!("../page/style.css") },
     Asset { path: "/icon.svg", media_type: SVG, body: include_str!("../page/icon.svg") },
@@ -30,6 +30,13 @@ pub(crate) const ASSETS: [Asset; 12] = [
     Asset { path: "/answers.js", media_type: JS, body: include_str!("../page/answers.js") },
     Asset { path: "/trend.js", media_type: JS, body: include_str!("../page/trend.js") },
     Asset { path: "/receipt.js", media_type: JS, body: include_str!("../page/receipt.js") },
+    Asset { path: "/world.css", media_type: CSS, body: include_str!("../page/world.css") },
+    Asset { path: "/world.js", media_type: JS, body: include_str!("../page/world.js") },
+    Asset { path: "/grid.js", media_type: JS, body: include_str!("../page/grid.js") },
+    Asset { path: "/road.js", media_type: JS, body: include_str!("../page/road.js") },
+    Asset { path: "/frontier.js", media_type: JS, body: include_str!("../page/frontier.js") },
+    Asset { path: "/weights.js", media_type: JS, body: include_str!("../page/weights.js") },
+    Asset { path: "/risk.js", media_type: JS, body: include_str!("../page/risk.js") },
 ];
 
 #[cfg(test)]

@@ -17,6 +17,8 @@ mod run;
 mod server;
 mod settings;
 mod socket;
+mod tabular;
+mod tabular_view;
 mod view;
 
 pub use access::{Access, AccessError};

@@ -10,12 +10,14 @@ use crate::protocol::{
 };
 use crate::question::{Context, id_of};
 use crate::settings::Settings;
+use crate::tabular::{News, Tabular};
 use crate::view::{
     bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point,
 };
 use apprentice_msgs::msg::{
     EvidenceLog, EvidenceReceipt, Heartbeat, LessonStatus, PerformanceBounds, PlacementDemonstration, PlacementPlan,
-    PlacementQuery, Posterior, QueryResponse, Retraction, TableScene,
+    PlacementQuery, PolicyBounds, PolicyFrontier, Posterior, QueryResponse, Retraction, RiskPreference, RobustPolicy,
+    TableScene, TabularWorld,
 };
 use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::Time;
@@ -46,6 +48,14 @@ pub enum Event {
     Receipt(Box<EvidenceReceipt>),
     /// Everything accepted so far.
     Evidence(Box<EvidenceLog>),
+    /// The world of a lesson that is about one.
+    World(Box<TabularWorld>),
+    /// What the robot would do in it.
+    Policy(Box<RobustPolicy>),
+    /// What every caution buys.
+    Frontier(Box<PolicyFrontier>),
+    /// Bounds on policies, the robot's among them.
+    PolicyBounds(Box<PolicyBounds>),
     /// A node is alive.
     Heartbeat(Box<Heartbeat>),
     /// A page has connected.
@@ -74,6 +84,8 @@ pub enum Output {
     Retraction(Box<Retraction>),
     /// Publish, now and again until there is a receipt.
     Response(Box<QueryResponse>),
+    /// Publish, now and again until a policy follows it.
+    Preference(Box<RiskPreference>),
     /// Publish for RViz.
     Markers(Box<MarkerArray>),
     /// Send to pages.
@@ -94,6 +106,7 @@ struct Changed {
     posterior: bool,
     answers: bool,
     nodes: bool,
+    tabular: News,
 }
 
 impl Changed {
@@ -107,6 +120,7 @@ impl Changed {
         posterior: true,
         answers: true,
         nodes: true,
+        tabular: News::ALL,
     };
 }
 
@@ -123,6 +137,7 @@ pub struct OperatorUi {
     posterior: Option<PosteriorView>,
     trend: Vec<TrendPoint>,
     answers: Answers,
+    tabular: Tabular,
     presence: Presence,
     nodes: Vec<NodeView>,
     ticked: Option<Time>,
@@ -143,6 +158,7 @@ impl OperatorUi {
             posterior: None,
             trend: Vec::new(),
             answers: Answers::default(),
+            tabular: Tabular::default(),
             presence: Presence::default(),
             nodes: Vec::new(),
             ticked: None,
@@ -160,10 +176,24 @@ impl OperatorUi {
             Event::Query(message) => changed.question = self.take_query(*message, &mut out),
             Event::Lesson(message) => {
                 changed.lesson = self.lesson.as_ref().map(lesson_view) != Some(lesson_view(&message));
+                changed.tabular |= self.tabular.take_lesson(&message);
                 self.lesson = Some(*message);
             }
             Event::Bounds(message) => changed.bounds = self.take_bounds(&message),
-            Event::Posterior(message) => changed.posterior = replace(&mut self.posterior, posterior_view(&message)),
+            Event::Posterior(message) => {
+                changed.tabular |= self.tabular.take_posterior(&message);
+                changed.posterior = replace(&mut self.posterior, posterior_view(&message));
+            }
+            Event::World(message) => match self.tabular.take_world(&message) {
+                Ok(news) => changed.tabular |= news,
+                Err(text) => self.warn(text, &mut out),
+            },
+            Event::Policy(message) => match self.tabular.take_policy(&message) {
+                Ok(news) => changed.tabular |= news,
+                Err(text) => self.warn(text, &mut out),
+            },
+            Event::Frontier(message) => changed.tabular |= self.tabular.take_frontier(&message),
+            Event::PolicyBounds(message) => changed.tabular |= self.tabular.take_bounds(&message),
             Event::Guess(message) => {
                 let view = self.checked_plan(&message, &mut out);
                 changed.guess = replace(&mut self.guess, view);
@@ -184,7 +214,10 @@ impl OperatorUi {
                 out.push(tell(Some(page), &ToPage::State { protocol: PROTOCOL, sections }));
             }
             Event::Said(page, text) => match self.take_command(&now, &text) {
-                Ok(()) => changed.answers = true,
+                Ok(news) => {
+                    changed.answers = true;
+                    changed.tabular |= news;
+                }
                 Err((id, reason)) => out.push(tell(Some(page), &ToPage::Refused { id, reason })),
             },
             Event::Tick => out.extend(self.tick(&now)),
@@ -198,6 +231,7 @@ impl OperatorUi {
             Evidence::Retraction(message) => Output::Retraction(message),
             Evidence::Response(message) => Output::Response(message),
         }));
+        out.extend(self.tabular.due(&now).map(|message| Output::Preference(Box::new(message))));
         let sections = self.sections(changed);
         if *sections != Sections::default() {
             out.push(tell(None, &ToPage::State { protocol: PROTOCOL, sections }));
@@ -267,13 +301,16 @@ impl OperatorUi {
     }
 
     /// Carries out a page's command, or says why not.
-    fn take_command(&mut self, now: &Time, text: &str) -> Result<(), (Option<String>, String)> {
+    fn take_command(&mut self, now: &Time, text: &str) -> Result<News, (Option<String>, String)> {
         let command: FromPage =
             serde_json::from_str(text).map_err(|error| (None, format!("the page sent no command: {error}")))?;
         let id = Some(id_of(&command).chars().take(128).collect());
+        if let FromPage::Caution { id: of, lambda } = &command {
+            return self.tabular.say(now, &self.settings.source, of, *lambda).map_err(|reason| (id, reason));
+        }
         match self.context().evidence(now, command) {
-            Ok(None) => Ok(()),
-            Ok(Some(evidence)) => self.answers.add(evidence).map_err(|reason| (id, reason)),
+            Ok(None) => Ok(News::NONE),
+            Ok(Some(evidence)) => self.answers.add(evidence).map(|()| News::NONE).map_err(|reason| (id, reason)),
             Err(reason) => Err((id, reason)),
         }
     }
@@ -309,7 +346,7 @@ impl OperatorUi {
             let epsilon_m = epsilon_m();
             self.trend.iter().map(|point| TrendPoint { epsilon_m, ..point.clone() }).collect()
         };
-        Box::new(Sections {
+        let mut sections = Box::new(Sections {
             scene: changed.scene.then(|| self.scene.as_ref().map(|(_, view)| view.clone())),
             question: changed.question.then(question),
             guess: changed.guess.then(|| self.guess.clone()),
@@ -320,7 +357,10 @@ impl OperatorUi {
             trend: (changed.bounds || changed.lesson).then(trend),
             answers: changed.answers.then(|| self.answers.views()),
             nodes: changed.nodes.then(|| self.nodes.clone()),
-        })
+            ..Sections::default()
+        });
+        self.tabular.fill(changed.tabular, &mut sections);
+        sections
     }
 
     /// The table in front of the robot for RViz: the question's while one is open, else the task's.

@@ -6,10 +6,15 @@
 //! full precision; what is not finite is `null`. Lengths are metres, the frame is the scene's.
 
 mod shown;
+mod world;
 
 pub use shown::{
     AnswerView, BoundsView, Fate, LessonView, NodeView, ObjectView, PlanView, PosteriorView, QuestionView, SceneView,
     SpotView, TrendPoint, UndoView,
+};
+pub use world::{
+    BoundView, CautionView, FrontierView, LossPoint, PictureView, PointView, PolicyView, RobustBoundsView, WeightView,
+    WorldView,
 };
 
 use serde::{Deserialize, Serialize};
@@ -78,6 +83,27 @@ pub struct Sections {
     /// Answers in accepted order, then those on their way; the newest [`MAX_ANSWERS`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub answers: Option<Vec<AnswerView>>,
+    /// The world that the lesson is about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub world: Option<Option<WorldView>>,
+    /// What the robot would do in it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub policy: Option<Option<PolicyView>>,
+    /// What every caution buys.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frontier: Option<Option<FrontierView>>,
+    /// Bounds on what the robot would do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub robust_bounds: Option<Option<RobustBoundsView>>,
+    /// How cautious a page asked the robot to be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub caution: Option<Option<CautionView>>,
+    /// What each weight of the world may be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weights: Option<Vec<WeightView>>,
+    /// The bound on the loss, one point a revision, oldest first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loss_trend: Option<Vec<LossPoint>>,
     /// Every node that was heard of.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nodes: Option<Vec<NodeView>>,
@@ -95,6 +121,14 @@ pub enum Kind {
     CantTell,
     /// Nothing is acceptable.
     Stop,
+    /// It was shown what to do in states of a world.
+    Actions,
+    /// Trajectories were compared.
+    Preference,
+    /// Parts of a trajectory were marked.
+    Critique,
+    /// Attempts of somebody who was learning.
+    History,
 }
 
 /// How sure a person is of a placement.
@@ -132,7 +166,7 @@ pub enum FromPage {
         id: String,
         /// The open question.
         query_id: String,
-        /// Which; not [`Kind::Placement`].
+        /// [`Kind::Skip`], [`Kind::CantTell`] or [`Kind::Stop`].
         kind: Kind,
         /// May be empty.
         #[serde(default)]
@@ -151,5 +185,12 @@ pub enum FromPage {
         id: String,
         /// Which.
         evidence_id: String,
+    },
+    /// How cautious the robot is to be in a world.
+    Caution {
+        /// Of the preference.
+        id: String,
+        /// From 0, only the worst case counts, to 1, only the mean counts.
+        lambda: f64,
     },
 }

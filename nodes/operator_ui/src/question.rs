@@ -83,6 +83,9 @@ impl Context<'_> {
             FromPage::Respond { id, query_id, kind, reason } => {
                 let kind = match kind {
                     Kind::Placement => return Err("a placement is sent with 'place', not with 'respond'".into()),
+                    Kind::Actions | Kind::Preference | Kind::Critique | Kind::History => {
+                        return Err("evidence about a world is no response".into());
+                    }
                     Kind::Skip => QueryResponse::SKIP,
                     Kind::CantTell => QueryResponse::CANT_TELL,
                     Kind::Stop => QueryResponse::STOP,
@@ -105,6 +108,7 @@ impl Context<'_> {
                 source,
                 reason: "taken back on the operator page".into(),
             })),
+            FromPage::Caution { .. } => return Err("a preference between mean and worst case is no evidence".into()),
             FromPage::Again { id, evidence_id } => {
                 let (before, scene) = self.answers.undone_placement(&evidence_id)?;
                 let (Some(x), Some(y), Some(confidence)) = (before.x_m, before.y_m, before.confidence) else {
@@ -130,7 +134,8 @@ pub(crate) fn id_of(command: &FromPage) -> &str {
         FromPage::Place { id, .. }
         | FromPage::Respond { id, .. }
         | FromPage::Retract { id, .. }
-        | FromPage::Again { id, .. } => id,
+        | FromPage::Again { id, .. }
+        | FromPage::Caution { id, .. } => id,
     }
 }
 
@@ -148,7 +153,7 @@ fn shown(id: &str) -> String {
 }
 
 /// Whether a text is a version 4 UUID in lower case.
-fn is_uuid(text: &str) -> bool {
+pub(crate) fn is_uuid(text: &str) -> bool {
     text.len() == 36
         && text.bytes().enumerate().all(|(i, byte)| match i {
             8 | 13 | 18 | 23 => byte == b'-',

@@ -4,7 +4,7 @@ use crate::access::{Access, random_token};
 use crate::hub::Hub;
 use crate::server::{Limits, Server};
 use crate::{Event, OperatorUi, Output, Settings};
-use apprentice_msgs::msg::{PlacementDemonstration, QueryResponse, Retraction};
+use apprentice_msgs::msg::{PlacementDemonstration, QueryResponse, Retraction, RiskPreference};
 use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
 use std::fs::File;
@@ -30,6 +30,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let demonstration = bus.publisher::<PlacementDemonstration>("demonstration", Qos::Event)?;
     let retraction = bus.publisher::<Retraction>("retraction", Qos::Event)?;
     let response = bus.publisher::<QueryResponse>("response", Qos::Event)?;
+    let preference = bus.publisher::<RiskPreference>("risk_preference", Qos::State)?;
     let markers = bus.publisher::<MarkerArray>("markers", Qos::State)?;
     bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
@@ -40,6 +41,10 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     bus.subscribe("plan", Qos::State, |message| Event::Plan(Box::new(message)))?;
     bus.subscribe("receipt", Qos::Event, |message| Event::Receipt(Box::new(message)))?;
     bus.subscribe("evidence", Qos::State, |message| Event::Evidence(Box::new(message)))?;
+    bus.subscribe("world", Qos::State, |message| Event::World(Box::new(message)))?;
+    bus.subscribe("robust_policy", Qos::State, |message| Event::Policy(Box::new(message)))?;
+    bus.subscribe("policy_frontier", Qos::State, |message| Event::Frontier(Box::new(message)))?;
+    bus.subscribe("policy_bounds", Qos::State, |message| Event::PolicyBounds(Box::new(message)))?;
     bus.subscribe("heartbeat", Qos::Event, |message| Event::Heartbeat(Box::new(message)))?;
     bus.every(Duration::from_millis(500), || Event::Tick);
 
@@ -60,6 +65,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Output::Demonstration(message) => demonstration.publish(&message)?,
                 Output::Retraction(message) => retraction.publish(&message)?,
                 Output::Response(message) => response.publish(&message)?,
+                Output::Preference(message) => preference.publish(&message)?,
                 Output::Markers(message) => markers.publish(&message)?,
                 Output::Told(told) => hub.tell(told),
                 Output::Warn(text) => log::warn!("{text}"),

@@ -134,7 +134,14 @@ pub(crate) fn lesson_view(message: &LessonStatus) -> LessonView {
         bound_outcome: bound_outcome(message.bound_outcome),
         bound_m: finite(message.bound_m),
         epsilon_m: finite(message.epsilon_m),
+        loss_bound: goal(message).and(finite(message.loss_bound)),
+        epsilon_loss: goal(message),
     }
+}
+
+/// The goal of a lesson about a world; none in one about a table.
+pub(crate) fn goal(message: &LessonStatus) -> Option<f64> {
+    finite(message.epsilon_loss).filter(|goal| *goal > 0.0)
 }
 
 /// The bound with its receipt.

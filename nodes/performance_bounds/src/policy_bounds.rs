@@ -21,7 +21,7 @@ pub fn judge_policies(
     set: &PolicySet,
     world: Option<&World>,
 ) -> Result<PolicyBounds, String> {
-    let posterior = &*judges(posterior, set.chains_used)?;
+    let posterior = &*judges(posterior, set.draws_used)?;
     let k = posterior.feature_names.len();
     let checked = check_policies(set, k, world).map_err(|error| error.to_string())?;
     let world = world.filter(|world| world.mdp.n_features() == k);
@@ -87,21 +87,19 @@ pub fn judge_policies(
 
 /// The posterior with those draws alone that did not choose the policies: a policy looks better to the draws it was chosen
 /// by, and a bound of these would not hold.
-fn judges(posterior: &Posterior, chains_used: u32) -> Result<Cow<'_, Posterior>, String> {
-    if chains_used == 0 {
+fn judges(posterior: &Posterior, draws_used: u32) -> Result<Cow<'_, Posterior>, String> {
+    if draws_used == 0 {
         return Ok(Cow::Borrowed(posterior));
     }
-    let (n_chains, k) = (posterior.n_chains, posterior.feature_names.len());
-    let left = n_chains.checked_sub(chains_used).filter(|left| *left > 0);
-    let n_left = left.ok_or_else(|| {
-        format!("its policies were chosen by {chains_used} chains, and the posterior has {n_chains}: none is left to judge them")
+    let k = posterior.feature_names.len();
+    let per_chain = posterior.n_draws / posterior.n_chains;
+    let left = per_chain.checked_sub(draws_used).filter(|left| *left > 0).ok_or_else(|| {
+        format!("its policies were chosen by {draws_used} draws of each chain, which has {per_chain}: none is left to judge them")
     })?;
-    let per_chain = posterior.n_draws / n_chains;
-    let skipped = per_chain as usize * chains_used as usize * k;
+    let later = |chain: &[f32]| chain[draws_used as usize * k..].to_vec();
     Ok(Cow::Owned(Posterior {
-        n_chains: n_left,
-        n_draws: per_chain * n_left,
-        draws: posterior.draws[skipped..].to_vec(),
+        n_draws: left * posterior.n_chains,
+        draws: posterior.draws.chunks_exact(per_chain as usize * k).flat_map(later).collect(),
         ..posterior.clone()
     }))
 }

@@ -369,13 +369,13 @@ fn what_cannot_be_judged_is_told_once_and_survived() {
 #[test]
 fn policies_are_judged_by_draws_that_did_not_choose_them() {
     let posterior = posterior(4000, RIGHT);
-    let chosen = |chains_used: u32| PolicySet { chains_used, ..set(2, &[always("right", 1), always("left", 0)]) };
-    let half = bounds_of(&Settings::default(), &posterior, &chosen(2));
-    assert_eq!((half.n, half.n_chains), (2000, 2));
-    // The same as if the other chains were all there is.
+    let chosen = |draws_used: u32| PolicySet { draws_used, ..set(2, &[always("right", 1), always("left", 0)]) };
+    let half = bounds_of(&Settings::default(), &posterior, &chosen(400));
+    assert_eq!((half.n, half.n_chains), (2400, 4));
+    // The same as if the later draws were all there are.
     let k = posterior.feature_names.len();
-    let rest =
-        Posterior { n_chains: 2, n_draws: 2000, draws: posterior.draws[2000 * k..].to_vec(), ..posterior.clone() };
+    let later = posterior.draws.chunks_exact(1000 * k).flat_map(|chain| chain[400 * k..].to_vec()).collect();
+    let rest = Posterior { n_draws: 2400, draws: later, ..posterior.clone() };
     let alone = bounds_of(&Settings::default(), &rest, &chosen(0));
     assert_eq!(to_cdr(&half), to_cdr(&alone));
     let all = bounds_of(&Settings::default(), &posterior, &chosen(0));
@@ -383,7 +383,7 @@ fn policies_are_judged_by_draws_that_did_not_choose_them() {
     let events = vec![
         Event::World(Box::new(message())),
         Event::Posterior(Box::new(posterior.clone())),
-        Event::Policies(Box::new(chosen(4))),
+        Event::Policies(Box::new(chosen(1000))),
     ];
     match outputs(&Settings::default(), events).as_slice() {
         [Output::Warn(text)] => assert!(text.contains("none is left to judge them"), "{text}"),

@@ -61,33 +61,32 @@ pub enum MissingInput {
 pub(crate) struct Halves {
     /// N × k: by these.
     pub chosen_by: Vec<f64>,
-    /// Chains of which `chosen_by` are, the first ones; 0: all of them.
-    pub chains_used: u32,
-    /// M × k, chain after chain: by these judged; none when there is one chain only.
+    /// First draws of each chain, of which `chosen_by` are; 0: all of them.
+    pub draws_used: u32,
+    /// M × k, chain after chain: by these judged; none when chains have one draw.
     pub held_out: Vec<f64>,
     /// Chains of which they are.
-    pub held_out_chains: usize,
+    pub n_chains: usize,
 }
 
 impl Halves {
-    /// The first half of the chains, thinned to the number of draws that is set, and the second half. Chains do not know of each
-    /// other, so that the second half judges fairly what was chosen by the first.
+    /// The first half of each chain, thinned to the number of draws that is set, and the second half. Chains that have mixed
+    /// forget within a few draws, so that the second half judges fairly what was chosen by the first.
     pub fn new(settings: &Settings, posterior: &Posterior) -> Self {
-        let k = posterior.feature_names.len();
-        let n_chains = posterior.n_chains as usize;
-        let used = n_chains / 2;
-        let per_chain = posterior.draws.len() / n_chains.max(1);
-        let cut = if used == 0 { posterior.draws.len() } else { used * per_chain };
-        let (first, second) = posterior.draws.split_at(cut);
-        let n = first.len() / k.max(1);
-        let wanted = usize::try_from(settings.n_draws).unwrap_or(1).clamp(1, n.max(1));
-        let rows = (0..wanted).map(|i| i * n / wanted);
-        let second = if used == 0 { &[] } else { second };
+        let k = posterior.feature_names.len().max(1);
+        let n_chains = (posterior.n_chains as usize).max(1);
+        let per_chain = posterior.draws.len() / k / n_chains;
+        let used = per_chain / 2;
+        let cut = if used == 0 { per_chain } else { used };
+        let chains = || posterior.draws.chunks_exact((per_chain * k).max(1));
+        let first: Vec<&[f32]> = chains().flat_map(|chain| chain[..cut * k].chunks_exact(k)).collect();
+        let wanted = usize::try_from(settings.n_draws).unwrap_or(1).clamp(1, first.len().max(1));
+        let rows = (0..wanted.min(first.len())).map(|i| first[i * first.len() / wanted]);
         Self {
-            chosen_by: rows.flat_map(|row| &first[row * k..(row + 1) * k]).map(|&w| f64::from(w)).collect(),
-            chains_used: u32::try_from(used).unwrap_or(u32::MAX),
-            held_out: second.iter().map(|&w| f64::from(w)).collect(),
-            held_out_chains: if used == 0 { 0 } else { n_chains - used },
+            chosen_by: rows.flatten().map(|&w| f64::from(w)).collect(),
+            draws_used: u32::try_from(used).unwrap_or(u32::MAX),
+            held_out: chains().flat_map(|chain| &chain[cut * k..]).map(|&w| f64::from(w)).collect(),
+            n_chains,
         }
     }
 }

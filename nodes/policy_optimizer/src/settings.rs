@@ -29,7 +29,7 @@ pub struct Settings {
     pub lambda: f64,
     /// λ of the frontier, evenly from 0 to 1.
     pub points: i64,
-    /// Most draws that a policy is chosen by, evenly spread over the first half of the chains.
+    /// Most draws that a policy is chosen by, evenly spread over the first half of each chain.
     pub n_draws: i64,
     /// Confidence of the interval around the worst case of the held-out draws.
     pub confidence: f64,
@@ -100,7 +100,7 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "n_draws",
-            about: "most draws that a policy is chosen by, of the first half of the chains; the other half judges it",
+            about: "most draws that a policy is chosen by, of the first half of each chain; the second half judges it",
             range: Range::Integer { min: 10, max: 100_000 },
         },
         ParameterSpec {

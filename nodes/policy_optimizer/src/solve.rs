@@ -76,7 +76,7 @@ pub fn frontier(settings: &Settings, inputs: &Inputs<'_>) -> PolicyFrontier {
         Err(missing) => message.reason = missing.to_string(),
         Ok((solutions, _, halves)) => {
             message.n_draws = n_draws(&halves, posterior);
-            message.chains_used = halves.chains_used;
+            message.draws_used = halves.draws_used;
             message.points = solutions.iter().map(point).collect();
             message.outcome = message.points.iter().map(|point| point.outcome).max().unwrap_or(message.outcome);
             message.reason = match solutions.iter().find(|solution| outcome_number(solution.outcome) == message.outcome)
@@ -143,7 +143,7 @@ fn judged(
     let counts = &solution.feature_counts;
     let values = performance(&inputs.world.mdp, &halves.held_out, objective, counts, settings.n_threads()).ok()?;
     let bootstrap = Bootstrap { confidence: settings.confidence, replicates: REPLICATES, seed: settings.seed() };
-    out_of_sample(&values, halves.held_out_chains, None, settings.alpha, &bootstrap).ok()
+    out_of_sample(&values, halves.n_chains, None, settings.alpha, &bootstrap).ok()
 }
 
 /// The message without a policy.
@@ -189,7 +189,7 @@ fn whole(
         status: solution.status.name().to_owned(),
         rounds: solution.rounds as u64,
         n_draws: n_draws(halves, inputs.posterior),
-        chains_used: halves.chains_used,
+        draws_used: halves.draws_used,
         ..bare
     };
     if !has_policy(solution.outcome) {
@@ -238,7 +238,7 @@ fn set(
         id: robust_set_id(bare.revision, bare.preference_number),
         number: bare.revision.saturating_add(bare.preference_number).saturating_add(1),
         world_id: inputs.world.id.clone(),
-        chains_used: halves.chains_used,
+        draws_used: halves.draws_used,
         policies,
     }))
 }

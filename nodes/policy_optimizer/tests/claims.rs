@@ -45,12 +45,19 @@ fn said(outputs: &[Output]) -> Vec<&'static str> {
         .collect()
 }
 
+/// The first half of each of the four chains, and the second.
+fn halves(draws: &[f64], k: usize) -> (Vec<f64>, Vec<f64>) {
+    let half = |chain: &[f64], second: usize| chain[second * 75 * k..][..75 * k].to_vec();
+    let of = |second: usize| draws.chunks_exact(150 * k).flat_map(|chain| half(chain, second)).collect();
+    (of(0), of(1))
+}
+
 fn preference(id: &str, number: u64, lambda: f64) -> RiskPreference {
     RiskPreference { id: id.into(), number, lambda, ..RiskPreference::default() }
 }
 
 #[test]
-fn the_policy_is_the_optimum_of_the_first_chains_and_is_judged_by_the_others() {
+fn the_policy_is_the_optimum_of_the_first_halves_and_is_judged_by_the_second() {
     let (posterior, world) = (posterior(3), world());
     for objective in [Objective::Robust, Objective::Evd] {
         let settings = Settings { objective, ..SETTINGS() };
@@ -58,10 +65,11 @@ fn the_policy_is_the_optimum_of_the_first_chains_and_is_judged_by_the_others() {
         assert_eq!(found.outcome, RobustPolicy::OPTIMAL, "{}", found.reason);
         let k = posterior.feature_names.len();
         let draws: Vec<f64> = posterior.draws.iter().map(|&w| f64::from(w)).collect();
-        let (first, second) = draws.split_at(draws.len() / 2);
+        let (first, second) = halves(&draws, k);
+        let (first, second) = (first.as_slice(), second.as_slice());
         assert_eq!(
-            (found.n_draws, found.held_out, found.chains_used),
-            (first.len() as u64 / k as u64, second.len() as u64 / k as u64, 2)
+            (found.n_draws, found.held_out, found.draws_used),
+            (first.len() as u64 / k as u64, second.len() as u64 / k as u64, 75)
         );
         let psi = match objective {
             Objective::Evd => robust::Objective::Loss,
@@ -201,7 +209,7 @@ fn the_set_to_judge_holds_the_policy_and_the_best_for_the_mean() {
     let (posterior, world) = (posterior(4), world());
     let found = policy(&SETTINGS(), &inputs(&posterior, &world), None);
     let set = found.set.expect("a policy that is proved the best");
-    assert_eq!((set.id.as_str(), set.number, set.chains_used, set.world_id.as_str()), ("robust-4-0", 5, 2, "garden"));
+    assert_eq!((set.id.as_str(), set.number, set.draws_used, set.world_id.as_str()), ("robust-4-0", 5, 75, "garden"));
     let ids: Vec<&str> = set.policies.iter().map(|policy| policy.id.as_str()).collect();
     assert_eq!(ids, ["robust", "mean"]);
     assert_eq!(set.policies[0].action_probabilities, found.policy.action_probabilities);
@@ -235,7 +243,8 @@ fn regret_is_measured_against_the_paths_in_force() {
     let expert =
         robust::expert_feature_counts(&world.mdp, &[vec![(0, 3), (1, 1), (4, 1)]], world.mdp.gamma()).expect("a path");
     let k = posterior.feature_names.len();
-    let first: Vec<f64> = posterior.draws[..posterior.draws.len() / 2].iter().map(|&w| f64::from(w)).collect();
+    let draws: Vec<f64> = posterior.draws.iter().map(|&w| f64::from(w)).collect();
+    let (first, _) = halves(&draws, k);
     let problem =
         Problem::new(&world.mdp, &first, None, robust::Objective::Regret { expert: &expert }, 1).expect("good");
     assert!(
@@ -299,12 +308,13 @@ fn draws_that_disagree_and_worlds_that_do_not_fit_give_a_reason_and_no_number() 
 }
 
 #[test]
-fn one_chain_alone_chooses_with_all_its_draws_and_says_that_nothing_judged() {
+fn chains_of_one_draw_choose_with_all_and_say_that_nothing_judged() {
     let (whole, world) = (posterior(3), world());
-    let single = Posterior { n_chains: 1, ..whole };
+    let k = whole.feature_names.len();
+    let single = Posterior { n_chains: 300, n_draws: 300, draws: whole.draws[..300 * k].to_vec(), ..whole.clone() };
     let found = policy(&SETTINGS(), &inputs(&single, &world), None);
-    assert_eq!((found.policy.chains_used, found.policy.held_out), (0, 0));
+    assert_eq!((found.policy.draws_used, found.policy.held_out, found.policy.n_draws), (0, 0, 300));
     assert!(found.policy.held_out_cvar.is_nan() && !found.policy.reason.contains("did not choose it"));
     let thinned = Settings { n_draws: 100, ..SETTINGS() };
-    assert_eq!(policy(&thinned, &inputs(&single, &world), None).policy.n_draws, 100);
+    assert_eq!(policy(&thinned, &inputs(&whole, &world), None).policy.n_draws, 100);
 }

@@ -140,6 +140,8 @@ fn words(report: &Report) -> Vec<String> {
         ("plans", report.plans),
         ("previews", report.previews),
         ("bounds on policies", report.policy_bounds),
+        ("robust policies", report.robust_policies),
+        ("frontiers", report.frontiers),
     ];
     let counts: Vec<String> = kinds.iter().map(|(name, checked)| format!("{} {name}", checked.recorded)).collect();
     let mut lines = vec![format!("equal bit for bit: {} from {} accepted events", counts.join(", "), report.records)];

@@ -46,6 +46,12 @@ pub enum ReplayError {
         /// Its id.
         id: String,
     },
+    /// What a policy was chosen by was not recorded.
+    #[error("the preference '{id}' that a policy names is not in the bag; was `risk_preference` recorded?")]
+    NoPreference {
+        /// Its id.
+        id: String,
+    },
     /// The node's parameters were not recorded.
     #[error("the settings of {0} are not in the bag; was `settings` recorded?")]
     NoSettings(&'static str),

@@ -3,6 +3,7 @@
 mod command;
 mod difference;
 mod error;
+mod policies;
 mod recompute;
 mod recording;
 mod report;

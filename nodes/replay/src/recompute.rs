@@ -45,9 +45,12 @@ pub struct Lesson {
     pub previews: BTreeMap<(u64, u64), PosteriorPreview>,
     bounds: performance_bounds::Settings,
     planner: Option<placement_planner::Settings>,
+    /// Of the nodes that a lesson about a world takes, as far as they were there.
+    pub(crate) optimizer: Option<policy_optimizer::Settings>,
+    pub(crate) query: Option<active_query::Settings>,
     planners: BTreeMap<String, PlacementPlanner>,
     robots: BTreeMap<String, String>,
-    worlds: BTreeMap<String, World>,
+    pub(crate) worlds: BTreeMap<String, World>,
 }
 
 /// Computes every revision of a recording; `threads` overrides the recorded number and must not matter.
@@ -91,6 +94,11 @@ pub fn recompute(
         progress(&round);
         rounds.push(round);
     }
+    let mut optimizer: Option<policy_optimizer::Settings> = settings_if_any(recording)?;
+    if let (Some(optimizer), Some(threads)) = (&mut optimizer, threads) {
+        optimizer.threads = threads;
+    }
+    let query = settings_if_any(recording)?;
     let planner = if tables.is_some() { Some(settings(recording)?) } else { None };
     // Worlds that cannot be used were recorded, too; nothing depends on them.
     let worlds = recording.worlds.values().filter_map(|message| world_from_message(message).ok());
@@ -99,6 +107,8 @@ pub fn recompute(
         previews,
         bounds,
         planner,
+        optimizer,
+        query,
         planners: BTreeMap::new(),
         robots: recording.robots.clone(),
         worlds: worlds.map(|world| (world.hash.clone(), world)).collect(),
@@ -217,6 +227,10 @@ impl Lesson {
         }
         judge_policies(&self.bounds, posterior, set, world).map_err(wrong)
     }
+}
+
+fn settings_if_any<S: NodeSettings>(recording: &Recording) -> Result<Option<S>, ReplayError> {
+    if recording.settings.contains_key(S::NODE) { settings(recording).map(Some) } else { Ok(None) }
 }
 
 fn settings<S: NodeSettings>(recording: &Recording) -> Result<S, ReplayError> {

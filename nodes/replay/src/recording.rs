@@ -3,7 +3,7 @@
 use crate::ReplayError;
 use apprentice_msgs::msg::{
     Candidates, EvidenceLog, LessonStatus, NodeSettings, PerformanceBounds, PlacementPlan, PlacementQuery,
-    PolicyBounds, PolicySet, Posterior, PosteriorPreview, TabularWorld,
+    PolicyBounds, PolicyFrontier, PolicySet, Posterior, PosteriorPreview, RiskPreference, RobustPolicy, TabularWorld,
 };
 use apprentice_msgs::{Message, from_cdr, std_msgs, to_cdr};
 use exchange::world_hash;
@@ -25,6 +25,12 @@ pub struct Recording {
     pub policy_bounds: Recorded<PolicyBounds>,
     /// Sets of policies, as often as they differ.
     pub policies: Vec<PolicySet>,
+    /// Recorded robust policies.
+    pub robust_policy: Recorded<RobustPolicy>,
+    /// Recorded frontiers.
+    pub frontier: Recorded<PolicyFrontier>,
+    /// Preferences between mean and worst case, by number and id.
+    pub preferences: BTreeMap<(u64, String), RiskPreference>,
     /// Worlds by their hash.
     pub worlds: BTreeMap<String, TabularWorld>,
     /// Recorded candidates.
@@ -94,6 +100,13 @@ impl Recording {
                 if !self.policies.contains(&set) {
                     self.policies.push(set);
                 }
+                Ok(())
+            }
+            RobustPolicy::TYPE => insert(&mut self.robust_policy, topic, index, cdr, |m| m.revision),
+            PolicyFrontier::TYPE => insert(&mut self.frontier, topic, index, cdr, |m| m.revision),
+            RiskPreference::TYPE => {
+                let said: RiskPreference = decode(topic, index, cdr)?;
+                self.preferences.entry((said.number, said.id.clone())).or_insert(said);
                 Ok(())
             }
             TabularWorld::TYPE => {

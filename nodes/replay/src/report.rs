@@ -1,5 +1,6 @@
 //! Recorded against recomputed, bit for bit.
 
+use crate::policies;
 use crate::recording::Recorded;
 use crate::{Difference, Lesson, Recording, ReplayError, difference};
 use apprentice_msgs::msg::{PolicyBounds, PolicySet, PosteriorPreview};
@@ -48,6 +49,10 @@ pub struct Report {
     pub previews: Checked,
     /// Bounds on policies compared, of all that were recorded: those whose policies were recorded, too.
     pub policy_bounds: Checked,
+    /// Robust policies compared, of all that were recorded.
+    pub robust_policies: Checked,
+    /// Frontiers compared, of all that were recorded.
+    pub frontiers: Checked,
     /// The first difference, in the order of the loop.
     pub mismatch: Option<Mismatch>,
 }
@@ -64,7 +69,10 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
             .or_else(|| compare(&recording.candidates, r, table.map(|table| &table.candidates)))
             .or_else(|| compare(&recording.bounds, r, table.map(|table| &table.bounds)))
             .or_else(|| compare(&recording.query, r, table.and_then(|table| table.query.as_ref())))
-            .or_else(|| compare(&recording.lesson, r, table.map(|table| &table.lesson)));
+            .or_else(|| match round {
+                Some(round) if round.table.is_none() => policies::world_lessons(recording, lesson, r),
+                _ => compare(&recording.lesson, r, table.map(|table| &table.lesson)),
+            });
     }
     mismatch = mismatch
         .or_else(|| beyond(&recording.posterior, last))
@@ -97,6 +105,17 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
             mismatch = rejudged(lesson, &sets, recorded, bytes)?;
         }
     }
+    for recorded in recording.robust_policy.values().flatten() {
+        if mismatch.is_none() {
+            mismatch = policies::robust_policy(recording, lesson, recorded)?;
+        }
+    }
+    for recorded in recording.frontier.values().flatten() {
+        if mismatch.is_none() {
+            mismatch = policies::frontier(recording, lesson, recorded)?;
+        }
+    }
+    let all = |n: usize| Checked { recorded: n, revisions: n };
     let revisions = lesson.rounds.len();
     let tables = lesson.rounds.iter().filter_map(|round| round.table.as_ref());
     let n_tables = tables.clone().count();
@@ -106,10 +125,12 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
         candidates: checked(&recording.candidates, n_tables),
         bounds: checked(&recording.bounds, n_tables),
         queries: checked(&recording.query, tables.filter(|table| table.query.is_some()).count()),
-        lessons: checked(&recording.lesson, n_tables),
+        lessons: checked(&recording.lesson, n_tables.max(policies::lessons_due(recording, lesson))),
         plans: checked(&recording.plan, n_tables),
         previews: checked(&recording.preview, lesson.previews.len()),
         policy_bounds,
+        robust_policies: all(recording.robust_policy.values().map(Vec::len).sum()),
+        frontiers: all(recording.frontier.values().map(Vec::len).sum()),
         mismatch,
     })
 }
@@ -168,7 +189,7 @@ fn rejudged(
     Ok(first)
 }
 
-fn found<M: Message>(recorded: &M, recomputed: &M, revision: u64) -> Mismatch {
+pub(crate) fn found<M: Message>(recorded: &M, recomputed: &M, revision: u64) -> Mismatch {
     Mismatch { message: M::TYPE, revision, difference: difference(recorded, recomputed) }
 }
 

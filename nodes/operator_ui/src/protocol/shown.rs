@@ -131,6 +131,10 @@ pub struct LessonView {
     pub bound_m: Option<f64>,
     /// The goal.
     pub epsilon_m: Option<f64>,
+    /// About a world: the bound on the loss, as a share of what choosing at random loses.
+    pub loss_bound: Option<f64>,
+    /// About a world: the goal.
+    pub epsilon_loss: Option<f64>,
 }
 
 /// The bound and everything it rests on.
@@ -241,6 +245,8 @@ pub struct AnswerView {
     pub y_m: Option<f64>,
     /// Of a placement.
     pub confidence: Option<Confidence>,
+    /// Steps shown, trajectories compared, segments marked or attempts told.
+    pub n: Option<u32>,
     /// What became of it.
     pub state: Fate,
     /// Of the posterior that took it in.

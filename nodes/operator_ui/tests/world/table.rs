@@ -1,7 +1,7 @@
 //! The state machine with a page in front of it.
 
 use super::{bounds, lesson, plan, posterior, query, receipt, scene};
-use apprentice_msgs::msg::{PlacementDemonstration, QueryResponse, Retraction};
+use apprentice_msgs::msg::{PlacementDemonstration, QueryResponse, Retraction, RiskPreference};
 use operator_ui::{Event, OperatorUi, Output, Settings};
 use serde_json::{Value, json};
 
@@ -19,6 +19,7 @@ pub struct Sent {
     pub demonstrations: Vec<PlacementDemonstration>,
     pub retractions: Vec<Retraction>,
     pub responses: Vec<QueryResponse>,
+    pub preferences: Vec<RiskPreference>,
     pub markers: usize,
 }
 
@@ -53,6 +54,7 @@ impl Table {
                 Output::Demonstration(message) => sent.demonstrations.push(*message),
                 Output::Retraction(message) => sent.retractions.push(*message),
                 Output::Response(message) => sent.responses.push(*message),
+                Output::Preference(message) => sent.preferences.push(*message),
                 Output::Markers(_) => sent.markers += 1,
                 Output::Warn(_) => {}
                 Output::Told(told) => {
