@@ -21,7 +21,8 @@ pub(crate) fn robot(arguments: &Arguments) -> Result<Robot, RobotError> {
     let path = || arguments.urdf.clone();
     let mut robot = Robot::read(&text, &mut |name| folders.find(name), &options)
         .map_err(|source| RobotError::Urdf { path: path(), source })?;
-    if !arguments.bounding_shapes && robot.links.iter().flat_map(|link| &link.meshes).any(|mesh| mesh.n_triangles == 0) {
+    if !arguments.bounding_shapes && robot.links.iter().flat_map(|link| &link.meshes).any(|mesh| mesh.n_triangles == 0)
+    {
         let about_mesh = |problem: &Problem| problem.what.contains("stands in for it");
         let mut problems: Vec<Problem> = robot.problems.drain(..).filter(about_mesh).collect();
         for problem in &mut problems {
@@ -51,7 +52,11 @@ pub(crate) fn exclusions(arguments: &Arguments, robot: &Robot) -> Result<(Exclus
         (0..links).for_each(|a| (a + 1..links).for_each(|b| all.enable_pair(a, b)));
         return Ok((all, problems));
     }
-    if arguments.srdf.is_some() { Ok((exclusions, problems)) } else { Ok((Exclusions::derived(robot, arguments.seed), problems)) }
+    if arguments.srdf.is_some() {
+        Ok((exclusions, problems))
+    } else {
+        Ok((Exclusions::derived(robot, arguments.seed), problems))
+    }
 }
 
 /// Joint positions by name; whether the file held a list of them.
@@ -89,7 +94,10 @@ fn posture(value: &Value, robot: &Robot) -> Result<Vec<(String, f64)>, String> {
             let nearest = moving().map(|joint| (strsim::damerau_levenshtein(&joint.name, &short), &joint.name)).min();
             let hint = match nearest {
                 Some((distance, nearest)) if distance <= 4 => format!("did you mean '{nearest}'?"),
-                _ => format!("its moving joints are: {}", moving().map(|j| j.name.as_str()).take(20).collect::<Vec<_>>().join(", ")),
+                _ => format!(
+                    "its moving joints are: {}",
+                    moving().map(|j| j.name.as_str()).take(20).collect::<Vec<_>>().join(", ")
+                ),
             };
             return Err(format!("the robot has no moving joint '{short}'; {hint}"));
         }

@@ -6,7 +6,8 @@ use serde_json::{Map, Value, json};
 
 pub(crate) fn answer(answer: &Answer) -> Value {
     let robot = &answer.robot;
-    let joints: Map<String, Value> = robot.joints.iter().map(|joint| (joint.name.clone(), joint_json(robot, joint))).collect();
+    let joints: Map<String, Value> =
+        robot.joints.iter().map(|joint| (joint.name.clone(), joint_json(robot, joint))).collect();
     let first = &answer.postures[0];
     let mut object = json!({
         "robot": robot.name,
@@ -109,7 +110,9 @@ fn contacts(robot: &Robot, posture: &Posture) -> Value {
 
 fn clearance(robot: &Robot, posture: &Posture) -> Value {
     match posture.nearest {
-        Some(((a, b), distance)) => json!({ "distance_m": distance, "links": [robot.links[a].name, robot.links[b].name] }),
+        Some(((a, b), distance)) => {
+            json!({ "distance_m": distance, "links": [robot.links[a].name, robot.links[b].name] })
+        }
         None => Value::Null,
     }
 }

@@ -90,7 +90,13 @@ fn posture_words(answer: &Answer, i: usize, posture: &Posture, text: &mut String
     let _ = match (&posture.contacts[..], posture.nearest) {
         ([], None) => writeln!(text, "{at} no links touch."),
         ([], Some(((a, b), distance))) => {
-            writeln!(text, "{at} no links touch; nearest are {} and {}, {:.1} mm apart.", name(a), name(b), 1e3 * distance)
+            writeln!(
+                text,
+                "{at} no links touch; nearest are {} and {}, {:.1} mm apart.",
+                name(a),
+                name(b),
+                1e3 * distance
+            )
         }
         (contacts, _) => {
             let pairs: Vec<String> = contacts.iter().map(|&(a, b)| format!("{} – {}", name(a), name(b))).collect();

@@ -81,7 +81,11 @@ fn the_shipped_arm_is_answered_for_in_words() {
 #[test]
 fn json_has_what_the_format_promises() {
     let joints = r#"{"shoulder_pitch": 1.5707963267948966, "finger_left": 0.05}"#;
-    let folder = folder(&[("arm.urdf", ARM), ("q.json", joints), ("list.json", &format!("[{joints}, {{\"elbow\": 2.5}}, {{}}]"))]);
+    let folder = folder(&[
+        ("arm.urdf", ARM),
+        ("q.json", joints),
+        ("list.json", &format!("[{joints}, {{\"elbow\": 2.5}}, {{}}]")),
+    ]);
     let one = json(&apprentice_robot(folder.path(), &["arm.urdf", "--json", "--joints", "q.json"]));
     assert_eq!((&one["robot"], &one["root"]), (&"table_arm_7".into(), &"table".into()));
     assert_eq!(one["problems"], serde_json::json!([]));
@@ -153,7 +157,10 @@ fn what_is_wrong_is_said_with_file_and_line() {
     let refused = apprentice_robot(folder.path(), &["broken.urdf"]);
     let said = String::from_utf8(refused.stderr).unwrap();
     assert_eq!(refused.status.code(), Some(2));
-    assert!(said.starts_with("error: apprentice robot: broken.urdf: line ") && said.contains("has the axis (0, 0, 0)"), "{said}");
+    assert!(
+        said.starts_with("error: apprentice robot: broken.urdf: line ") && said.contains("has the axis (0, 0, 0)"),
+        "{said}"
+    );
     for (file, expected) in [
         ("typo.json", "typo.json: the robot has no moving joint 'elbov'; did you mean 'elbow'?"),
         ("nan.json", "nan.json: the position of 'elbow' is no finite number"),

@@ -98,7 +98,9 @@ fn links_are_where_pinocchio_has_them_and_touch_where_coal_says() {
                 }
             }
         }
-        println!("{file}: {n_poses} poses, {n} configurations: {both} contacts and {neither} gaps agree, {hull_only} contacts of hulls only");
+        println!(
+            "{file}: {n_poses} poses, {n} configurations: {both} contacts and {neither} gaps agree, {hull_only} contacts of hulls only"
+        );
         assert!(both > 10 || file.contains("xarm"), "{file}: the comparison saw contacts");
     }
 }
@@ -179,7 +181,11 @@ fn every_robot_of_the_package_is_read_or_refused_with_a_reason() {
     assert!(files.len() >= 60 && compared >= 55, "{} {compared}\n{}", files.len(), refused.join("\n"));
     // A mimicked joint that is not there, three textures without a name, a file without a robot.
     assert!(refused.len() <= 5, "{}", refused.join("\n"));
-    assert!(refused.iter().all(|reason| reason.contains("line ") || reason.contains("holds no link")), "{}", refused.join("\n"));
+    assert!(
+        refused.iter().all(|reason| reason.contains("line ") || reason.contains("holds no link")),
+        "{}",
+        refused.join("\n")
+    );
 }
 
 #[test]
@@ -221,7 +227,11 @@ fn hulls_hold_every_vertex_of_their_meshes() {
                 for _ in 0..200 {
                     let d = Vector3::from_fn(|_, _| 2.0 * uniform(&mut state) - 1.0);
                     let of_mesh = read.used_vertices().iter().map(|v| v.dot(&d)).fold(f64::NEG_INFINITY, f64::max);
-                    let of_hull = hulls.iter().flat_map(|hull| hull.corners()).map(|c| c.dot(&d)).fold(f64::NEG_INFINITY, f64::max);
+                    let of_hull = hulls
+                        .iter()
+                        .flat_map(|hull| hull.corners())
+                        .map(|c| c.dot(&d))
+                        .fold(f64::NEG_INFINITY, f64::max);
                     assert!((of_mesh - of_hull).abs() < 1e-9, "{file}: {}: {of_mesh} {of_hull}", mesh.file);
                 }
             }

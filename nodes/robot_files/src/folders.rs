@@ -32,9 +32,8 @@ impl Folders {
     /// # Errors
     /// A root that is not there.
     pub fn new(roots: &[PathBuf], description: Option<&Path>) -> Result<Self, FoldersError> {
-        let resolve = |folder: &PathBuf| {
-            folder.canonicalize().map_err(|source| FoldersError { folder: folder.clone(), source })
-        };
+        let resolve =
+            |folder: &PathBuf| folder.canonicalize().map_err(|source| FoldersError { folder: folder.clone(), source });
         let roots = roots.iter().map(resolve).collect::<Result<_, _>>()?;
         let here = description.and_then(|file| file.canonicalize().ok()?.parent().map(Path::to_owned));
         Ok(Self { roots, here })
@@ -81,7 +80,11 @@ impl Folders {
         let mut tried = Vec::new();
         let named = |root: &&PathBuf| root.file_name().is_some_and(|name| name == package);
         // A package may hold a folder of its own name, so both readings are tried.
-        let around = self.here.iter().flat_map(|here| here.ancestors()).filter(|dir| dir.file_name().is_some_and(|n| n == package));
+        let around = self
+            .here
+            .iter()
+            .flat_map(|here| here.ancestors())
+            .filter(|dir| dir.file_name().is_some_and(|n| n == package));
         let candidates = (self.roots.iter().map(|root| (root.clone(), root.join(relative))))
             .chain(self.roots.iter().filter(named).map(|root| (root.clone(), root.join(inner))))
             .chain(around.map(|dir| (dir.to_owned(), dir.join(inner))));

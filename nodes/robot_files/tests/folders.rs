@@ -28,11 +28,7 @@ fn packages_are_found_from_their_parent_from_themselves_and_around_the_descripti
     let (_keep, package) = workspace();
     let urdf = package.join("urdf/arm.urdf");
     let name = "package://my_arm/meshes/link.stl";
-    for found in [
-        folders(&[package.parent().unwrap()], None),
-        folders(&[&package], None),
-        folders(&[], Some(&urdf)),
-    ] {
+    for found in [folders(&[package.parent().unwrap()], None), folders(&[&package], None), folders(&[], Some(&urdf))] {
         assert_eq!(found.find(name).unwrap(), b"mesh");
     }
     assert_eq!(folders(&[], Some(&urdf)).find("near.stl").unwrap(), b"near");

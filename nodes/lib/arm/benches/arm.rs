@@ -2,8 +2,8 @@
 #![allow(missing_docs, reason = "criterion writes functions of its own")]
 
 use arm::{
-    Chain, Checker, CollisionModel, Exclusions, Goal, IkSettings, Isometry3, Obstacle, Placed, Robot, Solid, SweepSettings,
-    Vector3, World, solve,
+    Chain, Checker, CollisionModel, Exclusions, Goal, IkSettings, Isometry3, Obstacle, Placed, Robot, Solid,
+    SweepSettings, Vector3, World, solve,
 };
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;

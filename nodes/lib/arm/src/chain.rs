@@ -47,11 +47,7 @@ impl Segment {
     fn motion(&self, q: &[f64]) -> Isometry3<f64> {
         let position = self.factor * q[self.entry] + self.offset;
         if self.slides {
-            Isometry3::translation(
-                self.axis.x * position,
-                self.axis.y * position,
-                self.axis.z * position,
-            )
+            Isometry3::translation(self.axis.x * position, self.axis.y * position, self.axis.z * position)
         } else {
             Isometry3::from_parts(nalgebra::Translation3::identity(), rotation::about_axis(&self.axis, position))
         }

@@ -2,7 +2,9 @@
 
 use crate::read::{MeshUse, Meshes, MissingMesh, ReadOptions};
 use crate::scan::{MAX_SOLIDS, Scan, shorten};
-use crate::{Drive, Joint, JointKind, Limits, Link, Placed, Problem, Robot, Solid, UrdfError, oddities, rotation, stand_in};
+use crate::{
+    Drive, Joint, JointKind, Limits, Link, Placed, Problem, Robot, Solid, UrdfError, oddities, rotation, stand_in,
+};
 use nalgebra::{Isometry3, Translation3, Unit, Vector3};
 use std::collections::BTreeMap;
 
@@ -112,12 +114,7 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    fn link(
-        &self,
-        link: &urdf_rs::Link,
-        meshes: &mut Meshes,
-        problems: &mut Vec<Problem>,
-    ) -> Result<Link, UrdfError> {
+    fn link(&self, link: &urdf_rs::Link, meshes: &mut Meshes, problems: &mut Vec<Problem>) -> Result<Link, UrdfError> {
         let starts = self.scan.collisions.get(&link.name);
         let mut solids = Vec::with_capacity(link.collision.len());
         let mut uses = Vec::new();
@@ -229,7 +226,8 @@ fn build_joint(
             problems.push(Problem {
                 line,
                 what: format!("joint '{}' is {words}: it is taken to be fixed where its origin is", name()),
-                advice: "describe where the robot stands by a fixed joint, and a moving base by joints of its own".into(),
+                advice: "describe where the robot stands by a fixed joint, and a moving base by joints of its own"
+                    .into(),
             });
             JointKind::Fixed
         }
@@ -256,7 +254,12 @@ fn build_joint(
     if ranged && (-limit.lower > FARTHEST || limit.upper > FARTHEST) {
         problems.push(Problem {
             line,
-            what: format!("joint '{}' has limits [{}, {}]: beyond {FARTHEST} it counts as endless", name(), limit.lower, limit.upper),
+            what: format!(
+                "joint '{}' has limits [{}, {}]: beyond {FARTHEST} it counts as endless",
+                name(),
+                limit.lower,
+                limit.upper
+            ),
             advice: "make it continuous, or give its real limits".into(),
         });
     }

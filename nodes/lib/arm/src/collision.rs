@@ -161,7 +161,13 @@ impl CollisionModel {
     }
 
     /// Every two things that are nearer than they may be, as in [`CollisionModel::first_contact`], sorted.
-    pub fn contacts(&self, poses: &[Isometry3<f64>], world: &World, margin: f64, scratch: &mut Scratch) -> Vec<Contact> {
+    pub fn contacts(
+        &self,
+        poses: &[Isometry3<f64>],
+        world: &World,
+        margin: f64,
+        scratch: &mut Scratch,
+    ) -> Vec<Contact> {
         self.place(poses, scratch);
         let mut found = BTreeSet::new();
         let _ = self.visit(poses, world, scratch, (0.0, margin), &mut |contact, a, b, limit| {
@@ -294,7 +300,8 @@ impl CollisionModel {
             }
             for near in world.near(&thing, margin) {
                 let standing = &world.parts()[near];
-                if standing.may_be_within(&thing, margin) && !held.may_touch(&world.obstacles()[standing.obstacle].name) {
+                if standing.may_be_within(&thing, margin) && !held.may_touch(&world.obstacles()[standing.obstacle].name)
+                {
                     let contact = Contact { a: Body::Held, b: Body::Obstacle(standing.obstacle) };
                     visit(contact, &thing, &standing.posed(), margin)?;
                 }
@@ -315,7 +322,8 @@ fn sphere(parts: &[Part]) -> Sphere {
     }
     let (middle, _) = solid::sphere_around(middles);
     let middle = Vector::new(middle.x, middle.y, middle.z);
-    let far = |part: &Part| (part.link_from_solid.transform_point(part.solid.middle) - middle).length() + part.solid.radius;
+    let far =
+        |part: &Part| (part.link_from_solid.transform_point(part.solid.middle) - middle).length() + part.solid.radius;
     Sphere { middle, radius: (1.0 + 1e-12) * parts.iter().map(far).fold(0.0, f64::max) }
 }
 

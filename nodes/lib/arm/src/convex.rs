@@ -37,7 +37,8 @@ enum Core {
 impl Convex {
     /// The convex parts of a solid.
     pub fn parts(solid: &Solid) -> Vec<Self> {
-        let about_origin = |core, rounding| Self { core, rounding, middle: Vector::ZERO, radius: solid.bounding_radius() };
+        let about_origin =
+            |core, rounding| Self { core, rounding, middle: Vector::ZERO, radius: solid.bounding_radius() };
         match *solid {
             Solid::Ball { radius } => vec![about_origin(Core::Point, radius)],
             Solid::Capsule { radius, half_length } => vec![about_origin(Core::Segment { half_length }, radius)],
@@ -62,9 +63,7 @@ impl Convex {
     pub fn distance_to_point(&self, at: Vector) -> f64 {
         let to_core = match self.core {
             Core::Point => at.length(),
-            Core::Segment { half_length } => {
-                Vector::new(at.x, at.y, (at.z.abs() - half_length).max(0.0)).length()
-            }
+            Core::Segment { half_length } => Vector::new(at.x, at.y, (at.z.abs() - half_length).max(0.0)).length(),
             Core::Box { half_extents } => (at.abs() - half_extents).max(Vector::ZERO).length(),
             Core::Cylinder { radius, half_length } => {
                 let radial = ((at.x * at.x + at.y * at.y).sqrt() - radius).max(0.0);

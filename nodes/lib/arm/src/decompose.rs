@@ -1,9 +1,9 @@
 //! Convex pieces of a mesh that its hull describes badly.
 
+use crate::convex::to_nalgebra;
 use crate::hull::Hull;
 use crate::mesh::Mesh;
 use crate::read::THICKNESS;
-use crate::convex::to_nalgebra;
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};

@@ -101,7 +101,9 @@ pub enum UrdfError {
         expected: Box<str>,
     },
     /// A type that URDF does not have.
-    #[error("line {line}: joint '{joint}' has the type '{got}'; expected revolute, continuous, prismatic, fixed, floating or planar")]
+    #[error(
+        "line {line}: joint '{joint}' has the type '{got}'; expected revolute, continuous, prismatic, fixed, floating or planar"
+    )]
     JointType {
         /// Where.
         line: usize,

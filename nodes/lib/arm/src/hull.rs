@@ -76,7 +76,10 @@ impl Hull {
         let mut frames = vec![(upright, Rotation::IDENTITY)];
         let turn = |k: f64| Rotation::from_scaled_axis(k * Vector::new(0.41, 0.73, 0.29));
         frames.extend((0..ATTEMPTS).map(|k| (*frame, turn(f64::from(k)))));
-        frames.iter().filter(|(frame, _)| frame.half.min_element() > 0.0).find_map(|(f, turn)| Self::attempt(points, f, *turn))
+        frames
+            .iter()
+            .filter(|(frame, _)| frame.half.min_element() > 0.0)
+            .find_map(|(f, turn)| Self::attempt(points, f, *turn))
     }
 
     /// The algorithm takes what is much longer than thick for flat, so it is given the points stretched to a cube.

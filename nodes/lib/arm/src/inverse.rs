@@ -258,8 +258,7 @@ impl<'a> Search<'a> {
         let wish = |i: usize| share * (posture[self.chain.entries[i]] - q[self.chain.entries[i]]);
         let moved: Vector6<f64> = self.rows.iter().enumerate().map(|(i, row)| row * wish(i)).sum();
         let pull = factor.solve(&moved);
-        let step: PerJoint =
-            std::array::from_fn(|i| self.rows.get(i).map_or(0.0, |row| wish(i) - row.dot(&pull)));
+        let step: PerJoint = std::array::from_fn(|i| self.rows.get(i).map_or(0.0, |row| wish(i) - row.dot(&pull)));
         let scale = LARGEST_STEP / step.iter().fold(LARGEST_STEP, |largest, step| largest.max(step.abs()));
         for (i, &entry) in self.chain.entries.iter().enumerate() {
             let limits = &self.robot.driven_joint(entry).limits;

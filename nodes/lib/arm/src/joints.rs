@@ -45,9 +45,8 @@ impl Robot {
         };
         let q: Vec<f64> = driven().map(|(_, at)| at.unwrap_or(0.0)).collect();
         let missing = names(&|joint, at| at.is_none() && !not_finite.contains(&joint.name));
-        let outside = names(&|joint, at| {
-            at.is_some_and(|at| at < joint.limits.lower - 1e-6 || at > joint.limits.upper + 1e-6)
-        });
+        let outside =
+            names(&|joint, at| at.is_some_and(|at| at < joint.limits.lower - 1e-6 || at > joint.limits.upper + 1e-6));
         let followers = self.joints.iter().zip(&found).filter(|(joint, _)| matches!(joint.drive, Drive::Mimic { .. }));
         let astray = followers
             .filter(|(joint, at)| at.is_some_and(|at| (at - joint.position(&q)).abs() > 1e-6))

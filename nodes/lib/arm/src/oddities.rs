@@ -25,7 +25,10 @@ pub(crate) fn list(robot: &mut Robot) {
             let file = mesh.file.rsplit('/').next().unwrap_or(&mesh.file);
             if mesh.is_flat {
                 note(
-                    format!("the collision mesh {} of link '{name}' encloses no volume: it is made 0.2 mm thick", shorten(file)),
+                    format!(
+                        "the collision mesh {} of link '{name}' encloses no volume: it is made 0.2 mm thick",
+                        shorten(file)
+                    ),
                     "use a closed mesh",
                 );
             } else if mesh.n_hulls == 1 && mesh.hull_volume > LOOSE_HULL * mesh.mesh_volume && mesh.mesh_volume > 0.0 {
@@ -79,7 +82,10 @@ fn joint_oddities(robot: &Robot, joint: &crate::Joint, found: &mut Vec<Problem>)
             }
             if limits.lower > 0.0 || limits.upper < 0.0 {
                 note(
-                    format!("position 0 of joint '{name}' is outside of its limits [{}, {}]", limits.lower, limits.upper),
+                    format!(
+                        "position 0 of joint '{name}' is outside of its limits [{}, {}]",
+                        limits.lower, limits.upper
+                    ),
                     "mind this where other programs take 0 as the start",
                 );
             }

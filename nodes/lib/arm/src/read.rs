@@ -148,6 +148,7 @@ fn load(
 
 /// A reason may name a path, which is longer than other foreign text.
 fn shorten_long(text: &str) -> String {
-    let words: Vec<String> = text.split(' ').map(|word| if word.len() <= 200 { word.to_owned() } else { shorten(word) }).collect();
+    let words: Vec<String> =
+        text.split(' ').map(|word| if word.len() <= 200 { word.to_owned() } else { shorten(word) }).collect();
     words.join(" ").chars().filter(|c| !c.is_control()).take(600).collect()
 }

@@ -181,7 +181,8 @@ impl Way<'_> {
             What::Links(pair) => model.links_within(&pair, scratch, limit),
             What::LinkAndPart(link, part) => {
                 let standing = &world.parts()[part];
-                let near = |solid: &Posed| standing.may_be_within(solid, limit) && solid.is_within(&standing.posed(), limit);
+                let near =
+                    |solid: &Posed| standing.may_be_within(solid, limit) && solid.is_within(&standing.posed(), limit);
                 model.parts_of(link, scratch).any(|solid| near(&solid))
             }
             What::HeldAndLink(link) => world.held().is_some_and(|held| {
@@ -192,9 +193,10 @@ impl Way<'_> {
             }),
             What::HeldAndPart(part) => world.held().is_some_and(|held| {
                 let standing = &world.parts()[part];
-                held.parts.iter().map(|solid| pose_held(held, solid, poses)).any(|thing| {
-                    standing.may_be_within(&thing, limit) && thing.is_within(&standing.posed(), limit)
-                })
+                held.parts
+                    .iter()
+                    .map(|solid| pose_held(held, solid, poses))
+                    .any(|thing| standing.may_be_within(&thing, limit) && thing.is_within(&standing.posed(), limit))
             }),
         };
         if !within(limit) {

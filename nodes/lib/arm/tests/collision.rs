@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use arm::{
-    Chain, Checker, CollisionModel, Exclusions, Isometry3, Obstacle, Placed, Robot, Solid, Vector3, World, solid_distance,
+    Chain, Checker, CollisionModel, Exclusions, Isometry3, Obstacle, Placed, Robot, Solid, Vector3, World,
+    solid_distance,
 };
 use std::sync::Arc;
 
@@ -175,7 +176,10 @@ fn an_srdf_disables_enables_and_names_what_is_not_there() {
     assert_eq!(pairs(enabled).0, [(1, 2)]);
     let (left, problems) = pairs("<robot>\n<disable_collisions link1='a' link2='z'/></robot>");
     assert_eq!(left, [(0, 2)]);
-    assert!(problems[0].starts_with("line 2: the SRDF names the link 'z', which the robot does not have;"), "{problems:?}");
+    assert!(
+        problems[0].starts_with("line 2: the SRDF names the link 'z', which the robot does not have;"),
+        "{problems:?}"
+    );
     for (bad, expected) in [
         ("<robot><disable_collisions".to_owned(), "cannot be read"),
         ("<robot>".to_owned(), "cut off"),

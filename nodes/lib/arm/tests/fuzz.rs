@@ -5,7 +5,9 @@
 
 mod common;
 
-use arm::{Checker, CollisionModel, Exclusions, Mesh, MeshDetail, MeshFormat, MissingMesh, ReadOptions, Robot, Solid, World};
+use arm::{
+    Checker, CollisionModel, Exclusions, Mesh, MeshDetail, MeshFormat, MissingMesh, ReadOptions, Robot, Solid, World,
+};
 use proptest::prelude::{Strategy, any, prop, prop_assert, prop_assert_eq, proptest};
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
@@ -64,7 +66,19 @@ enum Damage {
 fn damages() -> impl Strategy<Value = Vec<Damage>> {
     let at = 0.0..1.0_f64;
     let number = prop::sample::select(vec![
-        "NaN", "inf", "-inf", "1e400", "0", "-1", "4294967295", "9223372036854775808", "1e-320", "", "0x1", "1,5", "--1",
+        "NaN",
+        "inf",
+        "-inf",
+        "1e400",
+        "0",
+        "-1",
+        "4294967295",
+        "9223372036854775808",
+        "1e-320",
+        "",
+        "0x1",
+        "1,5",
+        "--1",
     ]);
     let one = proptest::prop_oneof![
         (at.clone(), prop::collection::vec(any::<u8>(), 1..8)).prop_map(|(at, bytes)| Damage::Put(at, bytes)),

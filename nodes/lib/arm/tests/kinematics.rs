@@ -193,7 +193,8 @@ fn manipulability_is_the_textbook_one_and_vanishes_at_singularities() {
     let mut columns = Vec::new();
     for (a, b) in [(0.3, 0.8), (-1.0, 2.0)] {
         chain.linearise(&[a, b], &mut columns);
-        let first = Vector3::new(-0.5 * f64::sin(a) - 0.3 * f64::sin(a + b), 0.5 * f64::cos(a) + 0.3 * f64::cos(a + b), 1.0);
+        let first =
+            Vector3::new(-0.5 * f64::sin(a) - 0.3 * f64::sin(a + b), 0.5 * f64::cos(a) + 0.3 * f64::cos(a + b), 1.0);
         let second = Vector3::new(-0.3 * f64::sin(a + b), 0.3 * f64::cos(a + b), 1.0);
         let expected = first.cross(&second).norm();
         assert!((manipulability(&columns) - expected).abs() < 1e-12);

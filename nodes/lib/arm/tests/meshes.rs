@@ -4,8 +4,8 @@
 mod common;
 
 use arm::{
-    Exclusions, Isometry3, MAX_MESH_BYTES, Mesh, MeshDetail, MeshError, MeshFormat, MissingMesh, Obstacle, ReadOptions, Robot,
-    Solid, UrdfError, Vector3, World, solid_distance,
+    Exclusions, Isometry3, MAX_MESH_BYTES, Mesh, MeshDetail, MeshError, MeshFormat, MissingMesh, Obstacle, ReadOptions,
+    Robot, Solid, UrdfError, Vector3, World, solid_distance,
 };
 use common::{MESH_ROBOT, dae, find, obj, stl_binary, stl_text};
 
@@ -47,11 +47,9 @@ fn collada_units_nodes_and_repeated_geometries_count() {
 
 #[test]
 fn formats_are_told_by_the_name() {
-    for (name, format) in [
-        ("a/b.STL", MeshFormat::Stl),
-        ("package://p/x.y.dae", MeshFormat::Dae),
-        ("file:///c.Obj", MeshFormat::Obj),
-    ] {
+    for (name, format) in
+        [("a/b.STL", MeshFormat::Stl), ("package://p/x.y.dae", MeshFormat::Dae), ("file:///c.Obj", MeshFormat::Obj)]
+    {
         assert_eq!(MeshFormat::of(name), Ok(format));
     }
     for name in ["stl", "a.stl/b", "a.glb", ""] {
@@ -98,10 +96,22 @@ fn each_broken_mesh_has_its_message() {
         (MeshFormat::Dae, dae_with("0 0 3 0", "0 0 -1 0"), "<polylist>: index -1, but there are 8 vertices"),
         (MeshFormat::Dae, dae_with("<vcount>4", "<vcount>9999999999"), "<polylist>: cut off: fewer corners"),
         (MeshFormat::Dae, dae_with("-1 -1 -1 1", "-1 -1 NaN 1"), "<float_array id=\"w\">: 'NaN' is no finite number"),
-        (MeshFormat::Dae, dae_with("source=\"#where\"", "source=\"#there\""), "<vertices id=\"v\">: its source of positions"),
+        (
+            MeshFormat::Dae,
+            dae_with("source=\"#where\"", "source=\"#there\""),
+            "<vertices id=\"v\">: its source of positions",
+        ),
         (MeshFormat::Dae, dae_with("url=\"#cube\"", "url=\"#ball\""), "the scene: an instance of the geometry 'ball'"),
-        (MeshFormat::Dae, dae_with("url=\"#cube\"", "url=\"cube.dae\""), "<instance_geometry>: its 'url' names nothing"),
-        (MeshFormat::Dae, dae_with("<library_nodes><node id=\"again\">", circle), "<node id=\"again\">: nodes refer to each other"),
+        (
+            MeshFormat::Dae,
+            dae_with("url=\"#cube\"", "url=\"cube.dae\""),
+            "<instance_geometry>: its 'url' names nothing",
+        ),
+        (
+            MeshFormat::Dae,
+            dae_with("<library_nodes><node id=\"again\">", circle),
+            "<node id=\"again\">: nodes refer to each other",
+        ),
     ];
     for (format, bytes, expected) in cases {
         let message = Mesh::read(format, &bytes).expect_err(expected).to_string();
@@ -119,7 +129,10 @@ fn nodes_that_refer_to_each_other_twice_do_not_grow_without_bound() {
         })
         .collect();
     let text = dae()
-        .replace("<library_nodes>", &format!("<library_nodes>{nodes}<node id=\"n60\"><instance_geometry url=\"#cube\"/></node>"))
+        .replace(
+            "<library_nodes>",
+            &format!("<library_nodes>{nodes}<node id=\"n60\"><instance_geometry url=\"#cube\"/></node>"),
+        )
         .replace("url=\"#again\"", "url=\"#n0\"");
     let error = Mesh::read(MeshFormat::Dae, text.as_bytes()).unwrap_err();
     assert!(matches!(error, MeshError::TooMany { .. }), "{error}");
@@ -139,7 +152,11 @@ fn a_robot_takes_its_meshes_scaled_and_placed() {
     assert_eq!(tip.solids[0].owner_from_solid, Isometry3::translation(0.0, 0.0, 0.5));
     assert_eq!((tip.meshes.len(), tip.meshes[0].n_triangles, tip.meshes[1].n_triangles), (2, 12, 24));
     // The hull of the two cubes of the COLLADA file is much larger than both.
-    assert!(robot.problems.iter().any(|p| p.what.starts_with("the convex hull of cube.dae of link 'tip' has")), "{:?}", robot.problems);
+    assert!(
+        robot.problems.iter().any(|p| p.what.starts_with("the convex hull of cube.dae of link 'tip' has")),
+        "{:?}",
+        robot.problems
+    );
     assert_eq!(asked, ["package://p/cube.stl", "cube.obj", "cube.dae"]);
 }
 
@@ -157,7 +174,9 @@ fn a_missing_mesh_is_refused_or_bounded_as_asked() {
     let robot = Robot::read(MESH_ROBOT, &mut none, &options).unwrap();
     let said: Vec<String> = robot.problems.iter().map(ToString::to_string).collect();
     assert_eq!(said.len(), 3, "{said:?}");
-    assert!(said[0].starts_with("line 2: the collision mesh of link 'base' cannot be used") && said[0].contains("a guess"));
+    assert!(
+        said[0].starts_with("line 2: the collision mesh of link 'base' cannot be used") && said[0].contains("a guess")
+    );
     // The base reaches from its frame to the joint at 3 m; the tip is as large as its inertia says: a cube of mass 1.2 and
     // moment 0.01 has the side √(6 · 0.01 / 1.2), about its middle 0.1 m up.
     let (low, high) = robot.links[0].solids[0].solid.bounds();
@@ -166,7 +185,10 @@ fn a_missing_mesh_is_refused_or_bounded_as_asked() {
     let side = f64::sqrt(0.05);
     let (low, high) = tip.solid.bounds();
     let top = tip.owner_from_solid.translation.vector + high;
-    assert!((top - Vector3::new(side / 2.0 + 0.03, side / 2.0 + 0.03, 0.1 + side / 2.0 + 0.03)).norm() < 1e-9, "{low} {top}");
+    assert!(
+        (top - Vector3::new(side / 2.0 + 0.03, side / 2.0 + 0.03, 0.1 + side / 2.0 + 0.03)).norm() < 1e-9,
+        "{low} {top}"
+    );
     // A mesh of no size is refused in any case.
     let flat = MESH_ROBOT.replace("0.1 0.1 -0.2", "0.1 0 0.1");
     let error = Robot::read(&flat, &mut |name| find(name), &options).unwrap_err();

@@ -21,11 +21,23 @@ fn limit(lower: f64, upper: f64, velocity: f64) -> String {
 #[test]
 fn each_oddity_is_named_with_line_and_advice() {
     let cases: Vec<(String, &str)> = vec![
-        (joint("j", "floating", "a", "b", ""), "line 3: joint 'j' is floating: it is taken to be fixed where its origin is; describe"),
+        (
+            joint("j", "floating", "a", "b", ""),
+            "line 3: joint 'j' is floating: it is taken to be fixed where its origin is; describe",
+        ),
         (joint("j", "planar", "a", "b", ""), "line 3: joint 'j' is planar: it is taken to be fixed"),
-        (joint("j", "revolute", "a", "b", &limit(0.0, 0.0, 1.0)), "line 3: joint 'j' has both limits at 0: it cannot move; give"),
-        (joint("j", "prismatic", "a", "b", &limit(-1.0, 1.0, 0.0)), "line 3: joint 'j' has the velocity limit 0: no motion of it can be timed; give"),
-        (joint("j", "revolute", "a", "b", &limit(0.5, 1.0, 1.0)), "line 3: position 0 of joint 'j' is outside of its limits [0.5, 1]"),
+        (
+            joint("j", "revolute", "a", "b", &limit(0.0, 0.0, 1.0)),
+            "line 3: joint 'j' has both limits at 0: it cannot move; give",
+        ),
+        (
+            joint("j", "prismatic", "a", "b", &limit(-1.0, 1.0, 0.0)),
+            "line 3: joint 'j' has the velocity limit 0: no motion of it can be timed; give",
+        ),
+        (
+            joint("j", "revolute", "a", "b", &limit(0.5, 1.0, 1.0)),
+            "line 3: position 0 of joint 'j' is outside of its limits [0.5, 1]",
+        ),
         (
             joint("j", "revolute", "a", "b", &limit(-1.0, 1.0, 1.0))
                 + &joint("k", "revolute", "b", "c", &(limit(-1.0, 1.0, 1.0) + "<mimic joint='j' multiplier='2'/>")),
@@ -55,7 +67,8 @@ fn each_oddity_is_named_with_line_and_advice() {
 
 #[test]
 fn a_floating_joint_stands_where_its_origin_is() {
-    let robot = robot(&[joint("j", "floating", "a", "b", "<origin xyz='1 2 3'/>"), joint("k", "continuous", "b", "c", "")]);
+    let robot =
+        robot(&[joint("j", "floating", "a", "b", "<origin xyz='1 2 3'/>"), joint("k", "continuous", "b", "c", "")]);
     assert_eq!(robot.dof(), 1);
     let mut poses = Vec::new();
     robot.link_poses(&[0.3], &mut poses);

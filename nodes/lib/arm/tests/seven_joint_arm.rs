@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use arm::{
-    AxisGoal, Chain, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Obstacle, Robot, Solid, Vector3,
-    World, approach_posture, solutions, solve,
+    AxisGoal, Chain, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Obstacle, Robot,
+    Solid, Vector3, World, approach_posture, solutions, solve,
 };
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -49,7 +49,8 @@ fn it_reaches_the_table_without_touching_itself() {
     for i in 0..100 {
         let position = Vector3::new(0.05 + 0.1 * f64::from(i % 10), 0.05 + 0.07 * f64::from(i / 10), 0.15);
         let goal = Goal::Axis(AxisGoal { position, direction: -Vector3::z_axis() });
-        let outcome = solve(&robot, &chain, &goal, &HOME, &IkSettings::default(), |q| checker.is_free(q, &world, 0.005));
+        let outcome =
+            solve(&robot, &chain, &goal, &HOME, &IkSettings::default(), |q| checker.is_free(q, &world, 0.005));
         reached += i32::from(matches!(outcome, IkOutcome::Solved(_)));
     }
     assert!(reached >= 90, "only {reached} of 100");
@@ -83,7 +84,9 @@ fn its_elbow_swings_while_the_hand_stays() {
     // Near home it gets all the way: the posture itself meets the goal.
     let mut near = HOME.to_vec();
     near[2] = 0.3;
-    let IkOutcome::Solved(mut q) = solve(&robot, &chain, &goal, &near, &settings, |_| true) else { panic!("not solved") };
+    let IkOutcome::Solved(mut q) = solve(&robot, &chain, &goal, &near, &settings, |_| true) else {
+        panic!("not solved")
+    };
     assert!(distance(&q) > 1e-3);
     assert!(approach_posture(&robot, &chain, &goal, &mut q, &HOME, &settings) < 1e-4, "{q:?}");
 }

@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use arm::{
-    Body, Chain, Checker, CollisionModel, Exclusions, Isometry3, Obstacle, Placed, Robot, Solid, Sweep, SweepSettings, World,
+    Body, Chain, Checker, CollisionModel, Exclusions, Isometry3, Obstacle, Placed, Robot, Solid, Sweep, SweepSettings,
+    World,
 };
 use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
 use std::sync::Arc;

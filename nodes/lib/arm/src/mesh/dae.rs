@@ -141,7 +141,8 @@ fn read_primitive(primitive: &Element, n: usize, triangles: &mut Vec<[u32; 3]>) 
                 let mut rest = &corners[..];
                 let counts = primitive.child("vcount").map_or("", |counts| counts.text.as_str());
                 for word in counts.split_ascii_whitespace() {
-                    let count: usize = word.parse().map_err(|_| syntax(primitive, "a count that is no whole number"))?;
+                    let count: usize =
+                        word.parse().map_err(|_| syntax(primitive, "a count that is no whole number"))?;
                     let Some((polygon, after)) = rest.split_at_checked(count) else {
                         return Err(syntax(primitive, "cut off: fewer corners than its counts ask for"));
                     };

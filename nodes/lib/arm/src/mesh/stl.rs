@@ -17,9 +17,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, MeshError> {
     let text = bytes.trim_ascii_start().starts_with(b"solid") && names_facets();
     match declared {
         _ if text && !exact => read_text(&String::from_utf8_lossy(bytes)),
-        Some(declared) if declared > MAX_TRIANGLES => {
-            Err(MeshError::TooMany { what: "triangles", max: MAX_TRIANGLES })
-        }
+        Some(declared) if declared > MAX_TRIANGLES => Err(MeshError::TooMany { what: "triangles", max: MAX_TRIANGLES }),
         Some(declared) if declared <= held => read_binary(&bytes[HEADER..HEADER + RECORD * declared]),
         Some(declared) => Err(MeshError::CutOff { declared, held }),
         None => Err(MeshError::Syntax { place: "byte 0".into(), problem: "neither text nor a binary header".into() }),

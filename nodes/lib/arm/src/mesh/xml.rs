@@ -104,7 +104,8 @@ fn element(start: &BytesStart) -> Result<Element, String> {
     for attribute in start.attributes() {
         let attribute = attribute.map_err(|error| error.to_string())?;
         let value = attribute.unescape_value().map_err(|error| error.to_string())?;
-        attributes.push((String::from_utf8_lossy(attribute.key.local_name().as_ref()).into_owned(), value.into_owned()));
+        attributes
+            .push((String::from_utf8_lossy(attribute.key.local_name().as_ref()).into_owned(), value.into_owned()));
     }
     let name = String::from_utf8_lossy(start.local_name().as_ref()).into_owned();
     Ok(Element { name, attributes, text: String::new(), children: Vec::new() })
