@@ -61,4 +61,10 @@ pub enum PeersError {
     /// A bound that cannot be asked for.
     #[error(transparent)]
     Risk(#[from] risk::RiskError),
+    /// A robot, or what belongs to it, that cannot be used.
+    #[error("the robot cannot be used: {problem}")]
+    Robot {
+        /// What is wrong.
+        problem: String,
+    },
 }

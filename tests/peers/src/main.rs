@@ -1,5 +1,6 @@
 //! Our samplers and solvers beside other programs, ratios in one run: `cargo run --release -p peers -- NAME`.
 
+mod arm;
 mod birl;
 mod bound;
 mod clock;
@@ -48,6 +49,8 @@ enum What {
     Birl,
     /// A world of 10,000 states: seconds for a posterior.
     LargeWorld,
+    /// A Panda among 20 objects: kinematics and collision checks, ours and those of Pinocchio with Coal.
+    Arm,
     /// How long a bound from 10,000 draws takes.
     Bound,
 }
@@ -72,6 +75,7 @@ fn run(arguments: &Arguments) -> Result<(), PeersError> {
         What::Preferences => serde_json::to_value(preferences::compare(seconds, seed)?),
         What::Birl => serde_json::to_value(birl::compare(seconds, seed)?),
         What::LargeWorld => serde_json::to_value(large_world::measure(seed)?),
+        What::Arm => serde_json::to_value(arm::compare(seconds, seed)?),
         What::Bound => serde_json::to_value(bound::measure(seconds, seed)?),
     }
     .map_err(|source| PeersError::Json { what: "the figures", source })?;
