@@ -50,9 +50,23 @@ const DOT: f64 = 0.14;
 /// Actions taken less often than this are not to be seen anyway.
 const UNSEEN: f64 = 0.002;
 
-/// An arrow in a cell with its centre at (x, y), whose area is `probability` of that of a sure action; empty where nothing would be
-/// seen.
-pub(crate) fn arrow(x: f64, y: f64, side: f64, direction: Direction, probability: f64) -> String {
+/// Arrows in a cell with its centre at (x, y), each with the area of its probability as a share of that of a sure action. They leave
+/// from the centre; one alone lies across it. Empty where nothing would be seen.
+pub(crate) fn arrows(x: f64, y: f64, side: f64, actions: &[(Direction, f64)]) -> String {
+    let mut seen = actions.iter().filter(|(_, probability)| *probability >= UNSEEN);
+    let (x, y) = match (seen.next(), seen.next()) {
+        (Some((direction, probability)), None) => {
+            let (dx, dy) = direction.step();
+            let back = 0.5 * TIP * side * libm::sqrt(probability.min(1.0));
+            (x - back * dx, y - back * dy)
+        }
+        _ => (x, y),
+    };
+    actions.iter().map(|&(direction, probability)| arrow(x, y, side, direction, probability)).collect()
+}
+
+/// One arrow that leaves from (x, y).
+fn arrow(x: f64, y: f64, side: f64, direction: Direction, probability: f64) -> String {
     if !(probability >= UNSEEN) {
         return String::new();
     }
@@ -64,15 +78,14 @@ pub(crate) fn arrow(x: f64, y: f64, side: f64, direction: Direction, probability
     let point = |along: f64, aside: f64| {
         format!("{:.2} {:.2}", x + scale * (along * dx - aside * dy), y + scale * (along * dy + aside * dx))
     };
-    let outline =
-        [(0.0, SHAFT), (NECK, SHAFT), (NECK, HEAD), (TIP, 0.0), (NECK, -HEAD), (NECK, -SHAFT), (0.0, -SHAFT)];
+    let outline = [(0.0, SHAFT), (NECK, SHAFT), (NECK, HEAD), (TIP, 0.0), (NECK, -HEAD), (NECK, -SHAFT), (0.0, -SHAFT)];
     let points: Vec<String> = outline.into_iter().map(|(along, aside)| point(along, aside)).collect();
     format!("<path d=\"M{}Z\"/>", points.join("L"))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Direction, arrow};
+    use super::{Direction, arrow, arrows};
 
     /// Area within a path of straight lines.
     fn area(path: &str) -> f64 {
@@ -102,6 +115,14 @@ mod tests {
         assert!(arrow(0.0, 0.0, 50.0, Direction::Up, 0.0).is_empty());
         assert!(arrow(0.0, 0.0, 50.0, Direction::Up, f64::NAN).is_empty());
         assert!(arrow(0.0, 0.0, 50.0, Direction::Stay, 0.5).starts_with("<circle"));
+    }
+
+    #[test]
+    fn one_arrow_lies_across_the_centre_and_several_leave_from_it() {
+        let one = arrows(0.0, 0.0, 100.0, &[(Direction::Right, 1.0), (Direction::Up, 0.0)]);
+        assert_eq!(one.split('L').nth(3), Some("22.00 0.00"));
+        let two = arrows(0.0, 0.0, 100.0, &[(Direction::Right, 0.5), (Direction::Up, 0.5)]);
+        assert!(two.matches("<path").count() == 2 && two.contains("L31.11 0.00L") && two.contains("L0.00 -31.11L"));
     }
 
     #[test]

@@ -15,9 +15,10 @@ use crate::ticks::{number, widened};
 /// Size of one chart, pixels.
 const CHART: (u32, u32) = (520, 400);
 const TITLE: u32 = 40;
-/// Height of a line of the legend and width of an entry, pixels.
+/// Height of a line of the legend, width of an entry without its label, and about that of a letter, pixels.
 const LEGEND_LINE: i32 = 20;
-const LEGEND_ENTRY: i32 = 250;
+const LEGEND_SIGN: i32 = 56;
+const LETTER: i32 = 7;
 
 /// How the points of a line are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,7 +101,9 @@ pub fn charts(title: &str, charts: &[Chart]) -> Result<String, PictureError> {
         }
     }
     let width = CHART.0 * charts.len() as u32 + 20;
-    let columns = ((width as i32 - 20) / LEGEND_ENTRY).max(1);
+    let longest = entries.iter().map(|entry| entry.label.chars().count() as i32).max().unwrap_or(0);
+    let entry_width = LEGEND_SIGN + LETTER * longest;
+    let columns = ((width as i32 - 20) / entry_width).max(1);
     let lines = (entries.len() as i32 + columns - 1) / columns;
     let size = (width, TITLE + CHART.1 + (lines * LEGEND_LINE) as u32 + 12);
     let mut svg = String::new();
@@ -115,7 +118,7 @@ pub fn charts(title: &str, charts: &[Chart]) -> Result<String, PictureError> {
         }
         for (index, entry) in entries.iter().enumerate() {
             let (column, line) = (index as i32 / lines.max(1), index as i32 % lines.max(1));
-            draw_entry(&legend, entry, (24 + column * LEGEND_ENTRY, 10 + line * LEGEND_LINE))?;
+            draw_entry(&legend, entry, (24 + column * entry_width, 10 + line * LEGEND_LINE))?;
         }
         area.present()?;
         Ok(())

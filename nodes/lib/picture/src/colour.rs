@@ -9,10 +9,10 @@ const LINES: [Colour; 7] =
 /// Of cells, pale enough for dark arrows; the first is that of nothing.
 const CELLS: [Colour; 8] = [
     (255, 255, 255),
+    (246, 238, 214),
     (240, 158, 146),
     (168, 205, 235),
     (186, 221, 170),
-    (243, 213, 140),
     (214, 187, 228),
     (200, 200, 200),
     (170, 222, 214),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::arrow::{Direction, arrow};
+use crate::arrow::{Direction, arrows};
 use crate::colour::{INK, hex, of_amount, of_kind};
 use crate::error::PictureError;
 
@@ -171,9 +171,8 @@ impl GridPicture {
                 );
             } else {
                 let opacity = if cell.visited { "1" } else { "0.3" };
-                let arrows: String =
-                    cell.arrows.iter().map(|&(to, share)| arrow(middle, centre, side, to, share)).collect();
-                let _ = write!(svg, "<g opacity=\"{opacity}\">{arrows}</g>");
+                let drawn = arrows(middle, centre, side, &cell.arrows);
+                let _ = write!(svg, "<g opacity=\"{opacity}\">{drawn}</g>");
             }
             svg.push_str("</g>\n");
         }

@@ -1,4 +1,5 @@
 //! How long robust policies take: one λ by either method, and a frontier of 21, on grids and on processes without structure.
+//! `cargo bench -p robust@0.1.0` (another crate of that name is among the dependencies); about five minutes.
 
 use std::hint::black_box;
 

@@ -134,7 +134,10 @@ pub(crate) fn optimal_value(mdp: &Mdp, solver: &mut Solver<'_>, weights: &[f64])
     let (value, rough) = optimum(mdp, solver, weights, |optimum| {
         let rough = optimum.error_bound() > ROUGH * optimum.value().abs();
         let actions = || optimum.policy().iter().map(|&action| action as u32).collect();
-        (optimum.value(), rough.then(|| Plan { actions: actions(), counts: optimum.feature_counts().to_vec(), visits: None }))
+        (
+            optimum.value(),
+            rough.then(|| Plan { actions: actions(), counts: optimum.feature_counts().to_vec(), visits: None }),
+        )
     });
     let polished = rough.and_then(|plan| polish(mdp, weights, &plan).ok());
     polished.map_or(value, |(_, plan)| value.max(dot(weights, &plan.counts)))

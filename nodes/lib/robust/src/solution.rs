@@ -158,3 +158,66 @@ fn flow_residual(mdp: &Mdp, occupancy: &[f64]) -> f64 {
     // Not `max`, which would drop what is not a number.
     balance.iter().fold(0.0, |most, x| if x.abs() <= most { most } else { x.abs() })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Outcome, Solution};
+    use crate::candidate::Candidate;
+    use crate::level::Level;
+    use crate::objective::Objective;
+    use crate::outcome::{Method, SolverStatus};
+    use crate::scenarios::Scenarios;
+    use crate::value::Value;
+    use mdp::{Features, Mdp, MdpParts, Policy, occupancy};
+
+    fn process() -> Mdp {
+        Mdp::new(MdpParts {
+            gamma: 0.9,
+            n_states: 2,
+            n_actions: 2,
+            n_features: 1,
+            initial: vec![1.0, 0.0],
+            transitions: vec![(0, 0, 1, 1.0), (0, 1, 0, 1.0), (1, 0, 0, 1.0), (1, 1, 1, 1.0)],
+            features: Features::State(vec![0.0, 1.0]),
+            actions: vec![],
+            shape: None,
+        })
+        .expect("a process")
+    }
+
+    /// A solver's claim about visits: as they are, and that no policy is better.
+    fn judged(visits: Vec<f64>, flattery: f64) -> Solution {
+        let mdp = process();
+        let scenarios = Scenarios::new(&mdp, &[1.0, 0.5], None, Objective::Robust, 1).expect("draws");
+        let level = Level::new(0.5, 0.0).expect("a level");
+        let counts = crate::policy::counts_of(&mdp, &visits);
+        let objective = Value::new(&scenarios, level, &counts).objective + flattery;
+        let (method, status) = (Method::Direct, SolverStatus::Solved);
+        let upper_bound = objective;
+        let candidate =
+            Candidate { occupancy: visits, objective, upper_bound, method, status, rounds: 1, solver_iterations: 9 };
+        Solution::new(&mdp, &scenarios, level, candidate, None, 1.0, 1e-8)
+    }
+
+    #[test]
+    fn what_a_solver_claims_is_checked_by_the_visits_alone() {
+        let visits = occupancy(&process(), &Policy::uniform(&process())).expect("visits");
+        let good = judged(visits.clone(), 0.0);
+        assert_eq!(good.outcome, Outcome::Optimal);
+        assert!(good.checks.hold() && good.gap() == 0.0);
+        // Visits out of nothing, fewer than none, and more return than they bring.
+        let mut created = visits.clone();
+        created[3] += 1e-6;
+        let created = judged(created, 0.0);
+        assert_eq!(created.outcome, Outcome::ConstraintsViolated);
+        assert!(created.checks.flow_residual > 1e-9);
+        let mut negative = visits.clone();
+        negative[0] = -1e-6;
+        assert_eq!(judged(negative, 0.0).outcome, Outcome::ConstraintsViolated);
+        let flattered = judged(visits.clone(), 1e-6);
+        assert_eq!(flattered.outcome, Outcome::ConstraintsViolated);
+        assert!((flattered.objective - good.objective).abs() < 1e-12, "only what the visits bring counts");
+        let nothing = judged(vec![f64::NAN; 4], 0.0);
+        assert_eq!(nothing.outcome, Outcome::ConstraintsViolated);
+    }
+}

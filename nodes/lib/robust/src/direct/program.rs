@@ -116,3 +116,33 @@ fn status(status: Status) -> SolverStatus {
         Status::NumericalError | Status::Unsolved => SolverStatus::NumericalError,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Effort, Program};
+    use crate::outcome::{Outcome, SolverStatus};
+
+    const EFFORT: Effort = Effort { accuracy: 1e-9, max_iterations: 100 };
+
+    /// min c x with x ≥ 0 and x ≤ b, or −x ≤ b where `sign` is −1.
+    fn answer(c: f64, sign: f64, b: f64, effort: Effort) -> super::Answer {
+        let mut program = Program::new(vec![b], 0);
+        program.nonnegative([(0, sign)]);
+        program.prepare(&[c], effort).solve()
+    }
+
+    #[test]
+    fn programs_without_an_answer_end_in_a_word() {
+        let solved = answer(-1.0, 1.0, 2.0, EFFORT);
+        assert_eq!(solved.status, SolverStatus::Solved);
+        assert!((solved.variables[0] - 2.0).abs() < 1e-7);
+        // Nothing is both at least 0 and at most −1, and nothing holds x back.
+        let infeasible = answer(1.0, 1.0, -1.0, EFFORT).status;
+        let unbounded = answer(-1.0, -1.0, 1.0, EFFORT).status;
+        let cut = answer(-1.0, 1.0, 2.0, Effort { max_iterations: 1, ..EFFORT }).status;
+        assert_eq!(
+            [infeasible, unbounded, cut].map(SolverStatus::outcome),
+            [Outcome::Infeasible, Outcome::Unbounded, Outcome::IterationLimit]
+        );
+    }
+}
