@@ -12,7 +12,7 @@ use std::process::ExitCode;
 const COMMIT: &str = env!("APPRENTICE_COMMIT");
 
 /// Commands that are no nodes: name and purpose.
-const COMMANDS: [(&str, &str); 10] = [
+const COMMANDS: [(&str, &str); 11] = [
     ("bringup", "Starts, watches, restarts and stops the nodes of a lesson; what `apprentice` alone does"),
     ("replay", "Computes a recorded session again, and compares every bit with --verify"),
     ("bag", "What is in a bag (info), and making a broken one whole (recover)"),
@@ -21,6 +21,7 @@ const COMMANDS: [(&str, &str); 10] = [
     ("likelihood", "How probable evidence in files is under given weights"),
     ("bound", "A high-confidence bound on a risk measure of losses in a file"),
     ("evaluate", "Policies judged under posterior draws in a file: losses, bounds, ranking"),
+    ("optimize", "The policy that is robust to what posterior draws do not agree on, and what its caution costs"),
     ("robot", "Checks a robot description (URDF) with its meshes: tree, limits, poses, collisions"),
     ("help", "This text; `apprentice --help` has the flags of a lesson"),
 ];
@@ -51,6 +52,7 @@ fn dispatch(command: &str, rest: &[String]) -> ExitCode {
         "likelihood" => parsed("apprentice likelihood", rest, offline::likelihood::run),
         "bound" => parsed("apprentice bound", rest, offline::bound::run),
         "evaluate" => parsed("apprentice evaluate", rest, offline::evaluate::run),
+        "optimize" => parsed("apprentice optimize", rest, offline::optimize::run),
         "robot" => parsed("apprentice robot", rest, robot_check::run),
         "help" => {
             print!("{}", overview());

@@ -4,7 +4,7 @@ use crate::command::{Folder, errors, top};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-const COMMANDS: [&str; 4] = ["infer", "likelihood", "bound", "evaluate"];
+const COMMANDS: [&str; 5] = ["infer", "likelihood", "bound", "evaluate", "optimize"];
 
 fn readme() -> String {
     std::fs::read_to_string(top().join("nodes/offline/README.md")).expect("there is a README")
@@ -163,6 +163,14 @@ fn the_contract_is_kept() {
     let line = "likelihood --mdp config/examples/kitchen.json --demonstrations config/examples/demonstrations.csv";
     let answer = folder.json(&format!("{line} --weights config/examples/weights.csv"));
     assert_eq!(answer["log_likelihood"].as_array().map(Vec::len), Some(3));
+    let answer = folder.json(
+        "optimize --mdp config/examples/kitchen.json --draws config/examples/draws.csv --alpha 0.95 --lambda 0.5",
+    );
+    let optimize =
+        ["outcome", "objective", "expected_return", "var", "cvar", "policy", "occupancy", "gap", "method", "seconds"];
+    for key in optimize {
+        assert!(!answer[key].is_null(), "optimize: {key}");
+    }
     for command in COMMANDS {
         let help = String::from_utf8(folder.run(&format!("{command} --help")).stdout).expect("UTF-8");
         for flag in ["--json", "--seed"] {

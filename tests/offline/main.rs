@@ -8,4 +8,6 @@ mod documentation;
 mod evidence;
 mod golden;
 mod interrupted;
+mod optimize;
+mod optimize_bad_input;
 mod sameness;

@@ -6,8 +6,10 @@ use diagnostics::WeightsError;
 use likelihood::actions::ActionError;
 use likelihood::preferences::PreferenceError;
 use mdp::MdpError;
+use picture::PictureError;
 use posterior::{ModelError, PosteriorError};
 use risk::RiskError;
+use robust::RobustError;
 
 /// Why a command gives no answer. "No bound" and "not mixed" are answers.
 #[derive(Debug, thiserror::Error)]
@@ -167,6 +169,17 @@ pub enum OfflineError {
     /// Importance weights that say nothing.
     #[error(transparent)]
     Weights(#[from] WeightsError),
+    /// A problem that cannot be optimised.
+    #[error(transparent)]
+    Robust(#[from] RobustError),
+    /// A picture that cannot be drawn.
+    #[error("{file}: {error}")]
+    Picture {
+        /// Name of the file it was to be.
+        file: String,
+        /// Why not.
+        error: PictureError,
+    },
     /// A file that cannot be written.
     #[error("{file}: cannot be written: {source}")]
     Unwritable {

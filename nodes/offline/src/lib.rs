@@ -1,4 +1,5 @@
-//! The mathematics on CSV and JSON files, without ROS: `apprentice infer`, `likelihood`, `bound` and `evaluate`.
+//! The mathematics on CSV and JSON files, without ROS: `apprentice infer`, `likelihood`, `bound`, `evaluate` and
+//! `optimize`.
 //!
 //! Each command is a set of flags and a function that runs it: files in, one answer out, on standard output. The formats stand
 //! in `README.md` beside this crate.
@@ -12,5 +13,5 @@ mod files;
 mod judgement;
 mod sampling;
 
-pub use commands::{bound, evaluate, infer, likelihood};
+pub use commands::{bound, evaluate, infer, likelihood, optimize};
 pub use error::OfflineError;

@@ -5,3 +5,4 @@ pub mod evaluate;
 pub mod infer;
 mod infer_report;
 pub mod likelihood;
+pub mod optimize;

@@ -39,6 +39,28 @@ fn policy(bytes: &[u8], mdp: &Mdp) -> Result<Policy, MdpError> {
     Policy::from_json(serde_json::json!({ "policy": policy }).to_string().as_bytes(), mdp)
 }
 
+/// Reads the most probable weights, `n_features` numbers under `map`, from an answer of `apprentice infer --json`.
+///
+/// # Errors
+/// What cannot be read, is no such JSON, or holds other numbers.
+pub fn read_map(path: &Path, n_features: usize) -> Result<Vec<f64>, OfflineError> {
+    let wrong = |message: String| {
+        let error = MdpError::Json { what: "an answer of apprentice infer", message };
+        OfflineError::Mdp { file: path.display().to_string(), error }
+    };
+    let answer: Value = serde_json::from_slice(&read(path)?).map_err(|error| wrong(error.to_string()))?;
+    let map = answer.get("map").and_then(Value::as_array);
+    let map = map.ok_or_else(|| wrong("got no list under the key \"map\"".to_owned()))?;
+    let numbers: Option<Vec<f64>> = map.iter().map(Value::as_f64).collect();
+    let numbers = numbers.ok_or_else(|| wrong("got something else than numbers under the key \"map\"".to_owned()))?;
+    if numbers.len() != n_features {
+        let (got, other) = (numbers.len(), "--mdp".to_owned());
+        let (file, what) = (path.display().to_string(), "weights");
+        return Err(OfflineError::Widths { file, what, got, other, expected: n_features });
+    }
+    Ok(numbers)
+}
+
 /// All bytes of a file, without a byte order mark.
 fn read(path: &Path) -> Result<Vec<u8>, OfflineError> {
     let file = || path.display().to_string();

@@ -11,9 +11,9 @@ mod table;
 mod write;
 
 pub use choices::{read_critiques, read_demonstrations, read_trajectories};
-pub use json::{read_mdp, read_policy};
+pub use json::{read_map, read_mdp, read_policy};
 pub use lines::MAX_LINE_BYTES;
 pub use orders::read_orders;
 pub use preferences::Preferences;
 pub use table::{MAX_NUMBERS, Table, Wanted};
-pub use write::write_table;
+pub use write::{write_table, write_text};

@@ -1,4 +1,4 @@
-//! Tables as CSV files that are whole or not there: written under another name, then renamed.
+//! Files that are whole or not there: written under another name, then renamed.
 
 use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};
@@ -17,18 +17,33 @@ use crate::OfflineError;
 /// # Errors
 /// What cannot be written; [`OfflineError::Interrupted`] after a signal.
 pub fn write_table(path: &Path, values: &[f64], n_columns: usize) -> Result<(), OfflineError> {
+    whole(path, &|file, stop| rows(file, values, n_columns, stop))
+}
+
+/// Writes a text, such as a picture.
+///
+/// # Errors
+/// As [`write_table`].
+pub fn write_text(path: &Path, text: &str) -> Result<(), OfflineError> {
+    whole(path, &|mut file, _| file.write_all(text.as_bytes()))
+}
+
+/// Writes the content of a file, until told to stop.
+type Content<'a> = &'a dyn Fn(&File, &AtomicBool) -> io::Result<()>;
+
+fn whole(path: &Path, content: Content<'_>) -> Result<(), OfflineError> {
     let failed = |source| OfflineError::Unwritable { file: path.display().to_string(), source };
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM, SIGHUP] {
         signal_hook::flag::register(signal, Arc::clone(&stop)).map_err(failed)?;
     }
-    write(path, values, n_columns, &stop).map_err(|source| match stop.load(Ordering::Relaxed) {
+    write(path, content, &stop).map_err(|source| match stop.load(Ordering::Relaxed) {
         true => OfflineError::Interrupted,
         false => failed(source),
     })
 }
 
-fn write(path: &Path, values: &[f64], n_columns: usize, stop: &AtomicBool) -> io::Result<()> {
+fn write(path: &Path, content: Content<'_>, stop: &AtomicBool) -> io::Result<()> {
     let target = match std::fs::canonicalize(path) {
         // A link stays one.
         Ok(target) => target,
@@ -39,7 +54,7 @@ fn write(path: &Path, values: &[f64], n_columns: usize, stop: &AtomicBool) -> io
         Ok(held) if held.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
         // A pipe or a device cannot be replaced.
         Ok(held) if !held.is_file() => {
-            return rows(&OpenOptions::new().write(true).open(&target)?, values, n_columns, stop);
+            return content(&OpenOptions::new().write(true).open(&target)?, stop);
         }
         _ => {}
     }
@@ -52,7 +67,7 @@ fn write(path: &Path, values: &[f64], n_columns: usize, stop: &AtomicBool) -> io
         .suffix(".part")
         .permissions(Permissions::from_mode(0o666))
         .tempfile_in(folder)?;
-    rows(part.as_file(), values, n_columns, stop)?;
+    content(part.as_file(), stop)?;
     part.persist(&target)?;
     Ok(())
 }
@@ -73,7 +88,7 @@ fn rows(file: &File, values: &[f64], n_columns: usize, stop: &AtomicBool) -> io:
 
 #[cfg(test)]
 mod tests {
-    use super::{rows, write_table};
+    use super::{rows, write_table, write_text};
     use crate::files::{Table, Wanted};
     use std::io::ErrorKind;
     use std::sync::atomic::AtomicBool;
@@ -90,6 +105,9 @@ mod tests {
         let table = Table::read(&path, &wanted).expect("a table");
         let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&table.values), bits(&values));
+        assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 1);
+        write_text(&path, "<svg/>").expect("written");
+        assert_eq!(std::fs::read_to_string(&path).expect("a text"), "<svg/>");
         assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 1);
         assert!(write_table(folder.path(), &values, 3).is_err());
         assert!(write_table(&folder.path().join("no/where.csv"), &values, 3).is_err());
