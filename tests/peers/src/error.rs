@@ -61,6 +61,9 @@ pub enum PeersError {
     /// A bound that cannot be asked for.
     #[error(transparent)]
     Risk(#[from] risk::RiskError),
+    /// A robust policy that cannot be asked for.
+    #[error(transparent)]
+    Robust(#[from] robust::RobustError),
     /// A robot, or what belongs to it, that cannot be used.
     #[error("the robot cannot be used: {problem}")]
     Robot {

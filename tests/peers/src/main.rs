@@ -3,11 +3,14 @@
 mod arm;
 mod birl;
 mod bound;
+mod broil;
 mod clock;
 mod effective;
 mod error;
+mod highs;
 mod l2_walk;
 mod large_world;
+mod memory;
 mod numpyro;
 mod preference_data;
 mod preferences;
@@ -53,6 +56,8 @@ enum What {
     Arm,
     /// How long a bound from 10,000 draws takes.
     Bound,
+    /// Robust policies: ours and SciPy's HiGHS (set up by tests/peers/setup) on the same linear programs.
+    Broil,
 }
 
 fn main() -> ExitCode {
@@ -77,6 +82,7 @@ fn run(arguments: &Arguments) -> Result<(), PeersError> {
         What::LargeWorld => serde_json::to_value(large_world::measure(seed)?),
         What::Arm => serde_json::to_value(arm::compare(seconds, seed)?),
         What::Bound => serde_json::to_value(bound::measure(seconds, seed)?),
+        What::Broil => serde_json::to_value(broil::compare(seed)?),
     }
     .map_err(|source| PeersError::Json { what: "the figures", source })?;
     match &arguments.json {
