@@ -163,7 +163,8 @@ fn per_call<T>(inputs: &[T], seconds: f64, mut work: impl FnMut(&T)) -> f64 {
 fn print(c: &Compared) {
     let Report { versions, call_us, links_us, collision } = &c.peers;
     println!(
-        "Panda, {N_CONFIGURATIONS} configurations, {N_OBJECTS} objects; CPU microseconds a call, best of ten rounds; {versions:?}"
+        "Panda, {N_CONFIGURATIONS} configurations, {N_OBJECTS} objects; CPU microseconds a call, best of ten rounds; \
+         {versions:?}"
     );
     println!("  a call from Python that does nothing {call_us:>39.2}");
     println!(
@@ -174,7 +175,8 @@ fn print(c: &Compared) {
     println!("  tool pose alone {:.2}, with the Jacobian {:.2}", c.chain_us, c.jacobian_us);
     let (hulls, meshes) = (&collision.hulls, &collision.meshes);
     println!(
-        "  {} pairs of links with each other and {} of shapes in all; {} of {N_CONFIGURATIONS} configurations free; {} judged otherwise by Coal's hulls",
+        "  {} pairs of links with each other and {} of shapes in all; {} of {N_CONFIGURATIONS} configurations free; \
+         {} judged otherwise by Coal's hulls",
         c.pairs, hulls.pairs, c.n_free, c.disagreements
     );
     for (name, ours, hulls_us, hulls_tree, meshes_us, meshes_tree) in [
@@ -183,7 +185,8 @@ fn print(c: &Compared) {
     ] {
         let best = hulls_us.min(hulls_tree);
         println!(
-            "  check of {name:<4} ours {ours:>7.2}; Coal hulls {hulls_us:>7.2}, with a tree {hulls_tree:>7.2} ({:.1} times); meshes {meshes_us:>7.2}, with a tree {meshes_tree:>7.2}",
+            "  check of {name:<4} ours {ours:>7.2}; Coal hulls {hulls_us:>7.2}, with a tree {hulls_tree:>7.2} ({:.1} times); \
+             meshes {meshes_us:>7.2}, with a tree {meshes_tree:>7.2}",
             best / ours
         );
     }

@@ -90,7 +90,7 @@ impl Hull {
         let corner = |i: u32| corners[i as usize];
         let six: f64 = faces.iter().map(|&[a, b, c]| corner(a).dot(corner(b).cross(corner(c)))).sum();
         // Two sides of one polygon, or nothing at all.
-        if corners.len() < 4 || corners.iter().any(|c| !c.is_finite()) || !(six / 6.0 > 1e-6) {
+        if corners.len() < 4 || corners.iter().any(|c| !c.is_finite()) || six.is_nan() || six / 6.0 <= 1e-6 {
             return None;
         }
         for &[a, b, c] in &faces {

@@ -74,7 +74,7 @@ pub fn solve(
     search.clamp(&mut q);
     let distance = (search.target.position() - chain.base()).norm();
     // A number that is none is out of every reach.
-    if !(distance <= chain.reach + settings.position_tolerance) {
+    if distance.is_nan() || distance > chain.reach + settings.position_tolerance {
         return IkOutcome::OutOfReach { distance, reach: chain.reach };
     }
     let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
@@ -199,7 +199,7 @@ impl<'a> Search<'a> {
                 damping *= 10.0;
             }
             slow = if gain > 0.98 { slow + 1 } else { 0 };
-            if slow > 8 || !(damping <= 1e6) {
+            if slow > 8 || damping > 1e6 || damping.is_nan() {
                 break;
             }
         }

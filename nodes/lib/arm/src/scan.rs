@@ -43,7 +43,7 @@ struct Owner {
 
 impl Owner {
     fn words(&self) -> String {
-        format!("{} '{}'", self.kind, self.name)
+        format!("{} '{}'", self.kind, shorten(&self.name))
     }
 }
 

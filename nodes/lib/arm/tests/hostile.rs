@@ -69,6 +69,14 @@ fn each_problem_has_its_message() {
             revolute("<limit lower='-inf' upper='1' velocity='1'/>"),
             "line 2: lower=\"-inf\" of <limit> in joint 'j': expected one finite number",
         ),
+        (
+            "<robot><link name='a'/><joint name='j&#10;k' type='fixed'><origin xyz='x'/></joint></robot>".into(),
+            "line 1: xyz=\"x\" of <origin> in joint 'j k': expected 3 finite numbers",
+        ),
+        (
+            "<robot><link name='a'><visual><geometry><mesh/></geometry></visual></link></robot>".into(),
+            "line 1: <mesh> lacks the attribute 'filename'",
+        ),
         (revolute(&format!("{LIMIT}<axis xyz='0 0 0'/>")), "line 2: joint 'j' has the axis (0, 0, 0)"),
         (
             revolute("<limit lower='2' upper='1' effort='1' velocity='1'/>"),

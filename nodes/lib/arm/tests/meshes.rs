@@ -48,7 +48,7 @@ fn collada_units_nodes_and_repeated_geometries_count() {
 #[test]
 fn formats_are_told_by_the_name() {
     for (name, format) in
-        [("a/b.STL", MeshFormat::Stl), ("package://p/x.y.dae", MeshFormat::Dae), ("file:///c.Obj", MeshFormat::Obj)]
+        [("a/b.STL", MeshFormat::Stl), ("package://p/x.y.dae", MeshFormat::Dae), ("other/c.Obj", MeshFormat::Obj)]
     {
         assert_eq!(MeshFormat::of(name), Ok(format));
     }

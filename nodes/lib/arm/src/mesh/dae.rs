@@ -64,7 +64,7 @@ fn add(mesh: &mut Mesh, part: &Mesh, placed: &Matrix4<f64>) -> Result<(), MeshEr
     let first = mesh.vertices.len() as u32;
     for vertex in &part.vertices {
         let moved = (placed.fixed_view::<3, 4>(0, 0) * Point3::from(*vertex).to_homogeneous()).into_owned();
-        if let Some(got) = moved.iter().find(|v| !(v.abs() <= super::MAX_COORDINATE)) {
+        if let Some(got) = moved.iter().find(|v| v.is_nan() || v.abs() > super::MAX_COORDINATE) {
             return Err(MeshError::Number { place: "a vertex placed by the scene".into(), got: got.to_string() });
         }
         mesh.vertices.push(moved);

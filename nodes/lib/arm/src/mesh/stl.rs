@@ -31,7 +31,7 @@ fn read_binary(records: &[u8]) -> Result<Mesh, MeshError> {
         for corner in record[12..48].chunks_exact(12) {
             let value = |k: usize| f64::from(f32::from_le_bytes([0, 1, 2, 3].map(|byte| corner[4 * k + byte])));
             let vertex = Vector3::new(value(0), value(1), value(2));
-            if let Some(got) = vertex.iter().find(|v| !(v.abs() <= MAX_COORDINATE)) {
+            if let Some(got) = vertex.iter().find(|v| v.is_nan() || v.abs() > MAX_COORDINATE) {
                 return Err(MeshError::Number { place: format!("triangle {i}"), got: got.to_string() });
             }
             mesh.vertices.push(vertex);
