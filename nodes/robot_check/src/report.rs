@@ -109,11 +109,14 @@ fn posture_words(answer: &Answer, i: usize, posture: &Posture, text: &mut String
         for (link, pose) in robot.links.iter().zip(&posture.poses) {
             let (t, r) = (&pose.translation.vector, &pose.rotation.coords);
             let padding = " ".repeat(width - link.name.chars().count());
-            let _ = writeln!(
-                text,
-                "  {}{padding}  {:8.4} {:8.4} {:8.4}  {:8.5} {:8.5} {:8.5} {:8.5}",
-                link.name, t.x, t.y, t.z, r.x, r.y, r.z, r.w
-            );
+            let numbers = [t.x, t.y, t.z].map(|v| format!(" {:8.4}", tidy(v, 5e-5))).concat();
+            let turn = [r.x, r.y, r.z, r.w].map(|v| format!(" {:8.5}", tidy(v, 5e-6))).concat();
+            let _ = writeln!(text, "  {}{padding} {numbers} {turn}", link.name);
         }
     }
+}
+
+/// What would be shown as 0 is 0: there is no minus 0 to read.
+fn tidy(value: f64, smallest: f64) -> f64 {
+    if value.abs() < smallest { 0.0 } else { value }
 }
