@@ -46,7 +46,7 @@ impl Corridor {
         Ok(Self { mdp, expert, undiscounted })
     }
 
-    fn likelihood(&self) -> Result<ActionLikelihood, ReproductionError> {
+    fn likelihood(&self) -> Result<ActionLikelihood<'_>, ReproductionError> {
         let choices = DEMONSTRATION.iter().map(|&(state, action)| Choice::taken(state, action)).collect();
         Ok(ActionLikelihood::new(&self.mdp, choices)?)
     }
