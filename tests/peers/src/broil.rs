@@ -229,7 +229,7 @@ impl Case {
     /// CPU seconds of a frontier with its problem, and these over λ = 0 alone and over the mean λ alone.
     fn frontier(&self, problem: &Problem<'_>, making: f64, settings: &Settings) -> Result<[f64; 3], PeersError> {
         let lambdas: Vec<f64> = (0..POINTS).map(|i| i as f64 / (POINTS - 1) as f64).collect();
-        let mut alone = vec![0.0; POINTS];
+        let mut alone = [0.0; POINTS];
         let mut together = vec![];
         for _ in 0..self.repeats {
             for (sum, &lambda) in alone.iter_mut().zip(&lambdas) {

@@ -67,7 +67,7 @@ pub(crate) fn arrows(x: f64, y: f64, side: f64, actions: &[(Direction, f64)]) ->
 
 /// One arrow that leaves from (x, y).
 fn arrow(x: f64, y: f64, side: f64, direction: Direction, probability: f64) -> String {
-    if !(probability >= UNSEEN) {
+    if probability.is_nan() || probability < UNSEEN {
         return String::new();
     }
     let scale = side * libm::sqrt(probability.min(1.0));

@@ -122,7 +122,7 @@ fn read_weights(path: &Path, draws: &Table) -> Result<Vec<f64>, OfflineError> {
         return Err(flag("--weights", problem));
     }
     let total: f64 = table.values.iter().sum();
-    if !(total > 0.0) {
+    if total.is_nan() || total <= 0.0 {
         let problem = format!("got weights in {} that sum to {total}, expected a positive sum", table.file);
         return Err(flag("--weights", problem));
     }
