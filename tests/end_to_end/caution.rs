@@ -19,6 +19,8 @@ fn the_slider_shows_what_caution_costs_and_the_robot_follows_the_choice() {
     page.wait("page about a world", "!document.getElementById('lesson-world').hidden");
     page.wait("arrows", "document.querySelectorAll('#world .move').length > 20");
     page.wait("frontier", "document.querySelectorAll('#frontier .frontier-dot').length === 21");
+    let limit = Duration::from_secs(240);
+    suite.wait_for("the lesson's end", limit, |suite| suite.shown().contains("taught after").then_some(()));
     page.wait("the lesson's end", "document.getElementById('state').dataset.value === 'taught'");
     assert_eq!(page.value("document.getElementById('lesson-table').hidden"), true);
     let risk = page.value("document.getElementById('world-risk').textContent");

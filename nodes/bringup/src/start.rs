@@ -2,7 +2,7 @@
 
 use crate::{
     BringupError, Circumstances, CommandLine, CommandLineError, Common, Console, Demonstrator, DomainLock, Kind, Level,
-    NodeInfo, Plan, Session, Settings, environment, launch, suite,
+    NodeInfo, Plan, Session, Settings, Subject, environment, launch, read_parameters, suite,
 };
 use bus::Graph;
 use std::path::{Path, PathBuf};
@@ -117,9 +117,15 @@ fn introduce(
 ) {
     let say = |word, text: &str| console.say(Kind::Info(word), text);
     let commit = commit.get(..10).unwrap_or(commit);
-    let who = match settings.demonstrator {
-        Demonstrator::Simulated => "a simulated person answers",
-        Demonstrator::Human => "you answer, on the page",
+    // What cannot be read by now is for the nodes to complain of.
+    let subject = read_parameters(&session.path("parameters.yaml")).map_or(Subject::Table, |text| Subject::of(&text));
+    let who = match (settings.demonstrator, subject) {
+        (Demonstrator::Simulated, Subject::Table) => "a simulated person answers",
+        (Demonstrator::Simulated, Subject::World) => "a simulated person teaches",
+        (Demonstrator::Human, Subject::Table) => "you answer, on the page",
+        (Demonstrator::Human, Subject::World) => {
+            "you teach, with any ROS client; the page shows what the robot would do"
+        }
     };
     let record = &session.record;
     let version = env!("CARGO_PKG_VERSION");

@@ -40,8 +40,10 @@ fn shows(pieces: &[Piece]) -> Vec<&ActionDemonstration> {
 }
 
 fn comparisons(pieces: &[Piece]) -> Vec<&TrajectoryPreference> {
-    let of = |piece| if let &Piece::Compare(ref message) = piece { Some(&**message) } else { None };
-    pieces.iter().filter_map(of).collect()
+    pieces
+        .iter()
+        .filter_map(|piece| if let Piece::Compare(message) = piece { Some(&**message) } else { None })
+        .collect()
 }
 
 #[test]

@@ -10,7 +10,7 @@ export function arrow(className, px, py, [dx, dy], length, width = 2.2) {
   const x = px - 0.35 * length * dx, y = py - 0.35 * length * dy;
   const tip = { x: x + dx * length, y: y + dy * length }, head = Math.min(6 + width, length * 0.42);
   const wing = (side) => `M${tip.x.toFixed(1)} ${tip.y.toFixed(1)}L${(tip.x - head * (dx + side * dy * 0.75)).toFixed(1)} ${(tip.y - head * (dy - side * dx * 0.75)).toFixed(1)}`;
-  return element("path", { class: className, style: `stroke-width:${width.toFixed(1)}px`, d: `M${x.toFixed(1)} ${y.toFixed(1)}L${tip.x.toFixed(1)} ${tip.y.toFixed(1)}${wing(1)}${wing(-1)}` });
+  return element("path", { class: className, "stroke-width": width, d: `M${x.toFixed(1)} ${y.toFixed(1)}L${tip.x.toFixed(1)} ${tip.y.toFixed(1)}${wing(1)}${wing(-1)}` });
 }
 
 /** Draws the grid into an SVG. `table` holds π(a|s), `visits` how often a state is come to; both may be empty. */

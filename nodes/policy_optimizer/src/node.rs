@@ -130,12 +130,8 @@ impl PolicyOptimizer {
         }
         match world_from_message(message) {
             // The world that the posterior names is kept, whatever else comes.
-            Ok(world) if self.world.is_none() || self.is_named(&world.hash) => {
-                self.world = Some(world);
-                Vec::new()
-            }
             Ok(world) => {
-                if !self.world.as_ref().is_some_and(|known| self.is_named(&known.hash)) {
+                if self.world.as_ref().is_none_or(|known| !self.is_named(&known.hash)) {
                     self.world = Some(world);
                 }
                 Vec::new()
@@ -233,7 +229,7 @@ impl PolicyOptimizer {
             return None;
         }
         let id: String = named.id.chars().take(MAX_ID).collect();
-        if !self.world.as_ref().is_some_and(|world| world.hash == named.hash) {
+        if self.world.as_ref().is_none_or(|world| world.hash != named.hash) {
             return Some(format!(
                 "the policy waits for the world '{id}': it must be on the topic world or lesson_world"
             ));

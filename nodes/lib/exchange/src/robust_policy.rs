@@ -80,7 +80,8 @@ pub fn check_robust_policy(message: &RobustPolicy) -> Result<(), RobustPolicyErr
     let (n_states, n_actions) = (*n_states, *n_actions);
     let cells = u64::from(n_states) * u64::from(n_actions);
     let fits = table.len() as u64 == cells && visits.len() as u64 == u64::from(n_states);
-    if !fits && !(table.is_empty() && visits.is_empty()) {
+    let is_absent = table.is_empty() && visits.is_empty();
+    if !(fits || is_absent) {
         return Err(RobustPolicyError::Size { got: table.len(), visits: visits.len(), n_states, n_actions });
     }
     match table.iter().position(|p| !(0.0..=1.0).contains(p)) {

@@ -5,8 +5,8 @@ use apprentice_msgs::msg::{
     TabularWorld, TrajectoryPreference,
 };
 use exchange::{
-    Form, Mark, World, check_history, check_policies, check_preference, marks_from_message, steps_from_message,
-    world_from_message, world_hash,
+    Form, Mark, Picture, World, check_history, check_policies, check_preference, marks_from_message,
+    steps_from_message, world_from_message, world_hash, world_to_message,
 };
 use mdp::Policy;
 use proptest::prelude::{Strategy, any, prop_assert, proptest};
@@ -83,6 +83,22 @@ fn every_fault_of_a_world_is_one_sentence() {
     assert!(told(|w| w.action_names.truncate(1)).contains("actions has 1 entries"));
     assert!(told(|w| w.shape = vec![3, 3]).contains("shape is 3"));
     assert!(told(|w| w.shape = vec![2]).starts_with("its shape has 1 numbers;"));
+    assert!(told(|w| w.shape_of = 2).starts_with("its shape is of kind 2;"));
+    assert!(told(|w| w.shape_of = TabularWorld::ROAD).starts_with("a road of 1 lanes and 2 places of traffic has"));
+    assert!(told(|w| (w.shape, w.shape_of) = (vec![u32::MAX, 9], TabularWorld::ROAD)).ends_with("it has 2 states"));
+}
+
+#[test]
+fn a_process_goes_there_and_back_with_its_picture() {
+    let world = world();
+    assert_eq!(world.picture, Picture::Cells { rows: 1, columns: 2 });
+    let again = world_to_message("w", &world.feature_names, &world.mdp, world.picture);
+    assert_eq!(again, message());
+    let road = mdp::worlds::driving::world();
+    let names: Vec<String> = (0..6).map(|i| format!("f{i}")).collect();
+    let picture = Picture::Road { lanes: 5, places: 7 };
+    let read = world_from_message(&world_to_message("road", &names, &road, picture)).expect("a good road");
+    assert_eq!((read.picture, read.mdp), (picture, road));
 }
 
 fn shown(states: Vec<u32>, actions: Vec<u32>) -> ActionDemonstration {
