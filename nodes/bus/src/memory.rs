@@ -215,11 +215,13 @@ struct OnDrop {
 
 impl Drop for OnDrop {
     fn drop(&mut self) {
-        if let Some(inner) = self.graph.upgrade() {
-            let mut inner = inner.lock().unwrap_or_else(PoisonError::into_inner);
-            inner.subscriptions.retain(|subscription| subscription.id != self.id);
-            inner.services.retain(|_, service| service.id != self.id);
-        }
+        let Some(inner) = self.graph.upgrade() else { return };
+        let mut inner = inner.lock().unwrap_or_else(PoisonError::into_inner);
+        let gone = inner.subscriptions.extract_if(.., |subscription| subscription.id == self.id).collect::<Vec<_>>();
+        let ended = inner.services.extract_if(.., |_, service| service.id == self.id).collect::<Vec<_>>();
+        // What handlers own may be publishers of this graph, whose end takes the lock too.
+        drop(inner);
+        drop((gone, ended));
     }
 }
 

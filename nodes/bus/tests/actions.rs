@@ -187,3 +187,15 @@ fn without_a_server_requests_are_lost_and_malformed_ones_are_not_answered() {
     assert_eq!(p.graph.inject_raw(feedback, of_type, &[0, 1, 0, 0, 7]), 1);
     assert!(drain(&mut p.client_node).is_empty());
 }
+
+#[test]
+fn a_server_that_goes_before_its_node_leaves_the_graph_usable() {
+    let Pair { graph, mut client_node, client, server_node, server } = pair();
+    // The node's services then hold the last of what tells the status.
+    drop(server);
+    drop(server_node);
+    assert!(!client.has_server());
+    drop(client);
+    drop(drain(&mut client_node));
+    graph.shutdown();
+}

@@ -1,11 +1,14 @@
 //! The node that plans: where the robot would put the target, in the open question's scene (its guess) and on the table as
 //! it is (its plan), free of the other objects and within reach of the arm; once the lesson is taught, it moves.
 
+mod asked;
+mod carrying;
 mod convert;
 mod node;
 mod run;
 mod settings;
 
+pub use carrying::Deed;
 pub use node::{Event, Output, PlacementPlanner, Request, is_task};
 pub use run::run;
 pub use settings::Settings;

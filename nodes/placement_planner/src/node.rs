@@ -1,12 +1,15 @@
 //! The node as a state machine: posterior, question, table, robot and lesson in; guess, plan and motion out.
 
+use crate::carrying::{Carrier, Deed};
 use crate::{Settings, convert};
+use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::builtin_interfaces::Time;
+use apprentice_msgs::control_msgs::FollowJointTrajectory;
 use apprentice_msgs::msg::{
     LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, SceneObject, TableScene,
 };
 use apprentice_msgs::sensor_msgs::JointState;
-use apprentice_msgs::trajectory_msgs::JointTrajectory;
+use bus::{ActionEvent, ActionRequest};
 use exchange::{check_posterior, is_about_a_table, is_about_scene, scene_from_message};
 use placement::{LossBatch, MAP_SIDE, ManipulatorError, Planner};
 use scene::Scene;
@@ -30,6 +33,15 @@ pub enum Event {
     RobotDescription(String),
     /// Where the arm is.
     Joints(JointState),
+    /// Somebody asks for an object to be placed, or not any more.
+    Place(ActionRequest<PlaceObject>),
+    /// The controller tells of a motion.
+    Controller(ActionEvent<FollowJointTrajectory>),
+    /// Some time has passed.
+    Tick {
+        /// Whether the controller can be heard.
+        controller_is_there: bool,
+    },
     /// Time to send the newest outputs again.
     Republish,
 }
@@ -41,8 +53,10 @@ pub enum Output {
     Guess(Box<PlanMessage>),
     /// The plan for the table as it is.
     Plan(Box<PlanMessage>),
-    /// The motion to make now.
-    Trajectory(JointTrajectory),
+    /// What is to be done about a motion.
+    Deed(Deed),
+    /// A goal of `place_object` is taken.
+    Accept(bus::GoalId),
     /// Something a person should know.
     Warn(String),
 }
@@ -64,19 +78,21 @@ pub struct Request<'a> {
 
 /// See the crate.
 pub struct PlacementPlanner {
-    settings: Settings,
-    planner: Planner,
+    pub(crate) settings: Settings,
+    pub(crate) planner: Planner,
     robot_hash: String,
     refused_robot: Option<String>,
-    joints: Vec<(String, f64)>,
+    pub(crate) joints: Vec<(String, f64)>,
+    pub(crate) joints_at: Option<Time>,
     joints_wrong: bool,
-    posterior: Option<Box<Posterior>>,
+    pub(crate) posterior: Option<Box<Posterior>>,
     query: Option<Box<PlacementQuery>>,
-    scene: Option<Box<TableScene>>,
-    taught: Option<u64>,
+    pub(crate) scene: Option<Box<TableScene>>,
+    pub(crate) taught: Option<u64>,
     guess: Option<Box<PlanMessage>>,
-    plan: Option<Box<PlanMessage>>,
+    pub(crate) plan: Option<Box<PlanMessage>>,
     moved: Option<u64>,
+    pub(crate) carrier: Carrier,
 }
 
 impl PlacementPlanner {
@@ -84,10 +100,12 @@ impl PlacementPlanner {
     pub fn new(settings: Settings) -> Self {
         Self {
             planner: Planner::new(settings.motion()),
+            carrier: Carrier::new(!settings.controller.is_empty(), settings.patience_s),
             settings,
             robot_hash: String::new(),
             refused_robot: None,
             joints: Vec::new(),
+            joints_at: None,
             joints_wrong: false,
             posterior: None,
             query: None,
@@ -99,8 +117,15 @@ impl PlacementPlanner {
         }
     }
 
-    /// Takes one event. A plan depends on the settings and on what it names, never on `_now`.
-    pub fn step(&mut self, _now: Time, event: Event) -> Vec<Output> {
+    /// Takes one event. A plan depends on the settings and on what it names, never on `now`; whether and when the arm moves
+    /// does.
+    pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
+        let mut outputs = self.supervise(now, &event);
+        outputs.extend(self.take(now, event));
+        outputs
+    }
+
+    fn take(&mut self, now: Time, event: Event) -> Vec<Output> {
         match event {
             Event::Posterior(posterior) => {
                 if self.posterior.as_ref().is_some_and(|known| known.revision == posterior.revision) {
@@ -138,14 +163,19 @@ impl PlacementPlanner {
                 self.taught = taught;
                 self.plan = None;
             }
-            Event::RobotDescription(urdf) => return self.robot(&urdf),
-            Event::Joints(joints) => return self.joints(&joints),
+            Event::RobotDescription(urdf) => return self.robot(now, &urdf),
+            Event::Joints(joints) => return self.take_joints(now, &joints),
+            Event::Place(request) => return self.place(now, request),
+            Event::Controller(event) => return deeds(self.carrier.hear(now, event)),
+            Event::Tick { controller_is_there } => {
+                return deeds(self.carrier.tick(now, controller_is_there, &self.joints));
+            }
             Event::Republish => {
                 let guess = self.guess.iter().cloned().map(Output::Guess);
                 return guess.chain(self.plan.iter().cloned().map(Output::Plan)).collect();
             }
         }
-        self.update()
+        self.update(now)
     }
 
     /// Takes a robot description, in place of an earlier one; plans name it by its hash.
@@ -195,7 +225,7 @@ impl PlacementPlanner {
         })
     }
 
-    fn robot(&mut self, urdf: &str) -> Vec<Output> {
+    fn robot(&mut self, now: Time, urdf: &str) -> Vec<Output> {
         let hash: String = Sha256::digest(urdf.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
         if hash == self.robot_hash || self.refused_robot.as_ref() == Some(&hash) {
             return Vec::new();
@@ -205,21 +235,22 @@ impl PlacementPlanner {
             return vec![Output::Warn(format!("the robot description is ignored: {error}"))];
         }
         (self.guess, self.plan) = (None, None);
-        self.update()
+        self.update(now)
     }
 
-    fn joints(&mut self, message: &JointState) -> Vec<Output> {
+    fn take_joints(&mut self, now: Time, message: &JointState) -> Vec<Output> {
         match convert::joints(message) {
             Ok(joints) => {
                 let first = self.joints.is_empty();
                 self.joints = joints;
+                self.joints_at = Some(now);
                 self.joints_wrong = false;
                 if first && !self.joints.is_empty() {
                     // What was planned from an unknown position is planned anew.
                     (self.guess, self.plan) = (None, None);
-                    return self.update();
+                    return self.update(now);
                 }
-                Vec::new()
+                self.execute(now)
             }
             Err(_) if self.joints_wrong => Vec::new(),
             Err(reason) => {
@@ -230,7 +261,7 @@ impl PlacementPlanner {
     }
 
     /// Makes what is missing and can be made.
-    fn update(&mut self) -> Vec<Output> {
+    pub(crate) fn update(&mut self, now: Time) -> Vec<Output> {
         let Some(posterior) = self.posterior.take() else { return Vec::new() };
         let names = self.planner.manipulator().map(placement::Manipulator::joint_names).unwrap_or_default();
         let start = convert::start(&names, &self.joints);
@@ -263,32 +294,58 @@ impl PlacementPlanner {
                 Ok(plan) => {
                     let plan = Box::new(plan);
                     self.plan = Some(plan.clone());
-                    outputs.push(Output::Plan(plan.clone()));
-                    outputs.extend(self.execute(*plan));
+                    outputs.push(Output::Plan(plan));
                 }
                 Err(reason) => outputs.push(Output::Warn(format!("no plan for scene '{}': {reason}", scene.id))),
             }
         }
         self.scene = scene;
         self.posterior = Some(posterior);
+        outputs.extend(self.execute(now));
         outputs
     }
 
-    /// Nothing moves unless the lesson is taught and the arm's position is known, and then once per revision.
-    fn execute(&mut self, plan: PlanMessage) -> Option<Output> {
-        let known = plan.trajectory.joint_names.iter().all(|name| plan.start.name.contains(name));
-        let may = self.settings.execute && plan.inside_bound && known && plan.outcome == PlanMessage::PLANNED;
-        if !may || self.moved == Some(plan.revision) {
-            return None;
+    /// Moves by itself once the lesson is taught, once per revision, if the arm is known to be where the plan starts.
+    fn execute(&mut self, now: Time) -> Vec<Output> {
+        let Some(plan) = &self.plan else { return Vec::new() };
+        let may = self.settings.execute && plan.inside_bound && plan.outcome == PlanMessage::PLANNED;
+        if !may || self.moved == Some(plan.revision) || self.carrier.is_busy() || self.obstacle(&now, plan).is_some() {
+            return Vec::new();
         }
         self.moved = Some(plan.revision);
-        Some(Output::Trajectory(plan.trajectory))
+        deeds(self.carrier.start(now, plan.clone(), None))
     }
+
+    /// Calls a motion off that rests on what is not so any more.
+    fn supervise(&mut self, now: Time, event: &Event) -> Vec<Output> {
+        if !self.carrier.is_busy() {
+            return Vec::new();
+        }
+        match event {
+            Event::Scene(scene) if self.scene.as_ref().is_some_and(|known| !stands_as(known, scene)) => {
+                let reason = "what stands on the table changed on the way";
+                deeds(self.carrier.stop(now, PlaceObjectResult::SCENE_CHANGED, reason))
+            }
+            Event::Lesson(lesson) if lesson.state != LessonStatus::TAUGHT => {
+                deeds(self.carrier.stop(now, PlaceObjectResult::NOT_TAUGHT, "the lesson is not taught any more"))
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Deeds as outputs.
+pub(crate) fn deeds(deeds: Vec<Deed>) -> Vec<Output> {
+    deeds.into_iter().map(Output::Deed).collect()
 }
 
 /// Whether a table is the one that the lesson, and so the bound, is about: the same things, each within 1 cm.
 pub fn is_task(scene: &TableScene, posterior: &Posterior) -> bool {
-    let task = &posterior.task;
+    stands_as(scene, &posterior.task)
+}
+
+/// Whether two tables are the same for a motion: the same things, each within 1 cm.
+fn stands_as(scene: &TableScene, task: &TableScene) -> bool {
     let near = |a: &SceneObject, b: &SceneObject| {
         let (p, q) = (&a.pose.position, &b.pose.position);
         a.id == b.id && a.shape == b.shape && (p.x - q.x).hypot(p.y - q.y) <= SAME_PLACE_M

@@ -1,11 +1,16 @@
 //! The node on the graph.
 
-use crate::{Event, Output, PlacementPlanner, Settings};
+use crate::{Deed, Event, Output, PlacementPlanner, Settings};
+use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
+use apprentice_msgs::control_msgs::FollowJointTrajectory;
 use apprentice_msgs::msg::PlacementPlan;
 use apprentice_msgs::std_msgs;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
 use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
 use std::time::Duration;
+
+/// How often a motion is looked after.
+const TICK: Duration = Duration::from_millis(100);
 
 /// Runs the node until it is asked to stop.
 pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
@@ -21,9 +26,22 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let urdf = |message: std_msgs::String| Event::RobotDescription(message.data);
     bus.subscribe("/robot_description", Qos::State, urdf)?;
     bus.subscribe("/joint_states", Qos::Stream, Event::Joints)?;
+    let place = bus.action_server::<PlaceObject>("place_object", Event::Place)?;
+    let controller = match settings.controller.as_str() {
+        "" => None,
+        name => Some(bus.action_client::<FollowJointTrajectory>(name, Event::Controller)?),
+    };
+    bus.every(TICK, || Event::Tick { controller_is_there: false });
     bus.every(Duration::from_secs_f64(settings.republish_period_s), || Event::Republish);
     let mut node = PlacementPlanner::new(settings);
     while let Some((now, event)) = bus.next() {
+        let event = match event {
+            Event::Tick { .. } => {
+                let controller_is_there = controller.as_ref().is_some_and(bus::ActionClient::has_server);
+                Event::Tick { controller_is_there }
+            }
+            event => event,
+        };
         for output in node.step(now, event) {
             match output {
                 Output::Guess(message) => guess.publish(&message)?,
@@ -37,10 +55,26 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                     bus.status(level, message.reason.clone(), &facts);
                     plan.publish(&message)?;
                 }
-                Output::Trajectory(message) => {
-                    log::info!("the lesson is taught: the arm moves, {} points", message.points.len());
-                    trajectory.publish(&message)?;
-                }
+                Output::Accept(goal_id) => place.accept(goal_id),
+                Output::Deed(deed) => match (deed, &controller) {
+                    (Deed::Publish(message), _) => {
+                        log::info!("the arm moves: {} points", message.points.len());
+                        trajectory.publish(&message)?;
+                    }
+                    (Deed::Send(goal_id, goal), Some(controller)) => {
+                        log::info!("the arm moves: {} points to the controller", goal.trajectory.points.len());
+                        controller.send_goal(goal_id, *goal)?;
+                    }
+                    (Deed::Cancel(goal_id), Some(controller)) => controller.cancel(goal_id)?,
+                    (Deed::AskResult(goal_id), Some(controller)) => controller.request_result(goal_id)?,
+                    (Deed::Send(..) | Deed::Cancel(_) | Deed::AskResult(_), None) => {}
+                    (Deed::Feedback(goal_id, feedback), _) => place.feedback(goal_id, feedback),
+                    (Deed::Finish(goal_id, end, result), _) => place.finish(goal_id, end, *result),
+                    (Deed::Over(result), _) if result.outcome == PlaceObjectResult::DONE => {
+                        log::info!("the motion is over: {}", result.reason);
+                    }
+                    (Deed::Over(result), _) => log::warn!("the motion is over: {}", result.reason),
+                },
                 Output::Warn(text) => log::warn!("{text}"),
             }
         }

@@ -26,6 +26,13 @@ pub struct Settings {
     pub speed: f64,
     /// Whether a taught robot moves: the plan's trajectory goes out on `/joint_trajectory`.
     pub execute: bool,
+    /// The controller's action, of the type `control_msgs/action/FollowJointTrajectory`; empty: trajectories go out on
+    /// `/joint_trajectory`.
+    pub controller: String,
+    /// A motion may take this much longer than planned, seconds.
+    pub patience_s: f64,
+    /// Nothing moves when the joint states are older than this, seconds.
+    pub joint_age_s: f64,
     /// How often the newest guess and plan are sent again, seconds.
     pub republish_period_s: f64,
 }
@@ -43,6 +50,9 @@ impl Default for Settings {
             approach_m: motion.approach_m,
             speed: motion.speed,
             execute: true,
+            controller: String::new(),
+            patience_s: 3.0,
+            joint_age_s: 1.0,
             republish_period_s: 2.0,
         }
     }
@@ -95,8 +105,24 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "execute",
-            about: "whether a taught robot moves: the trajectory goes out on /joint_trajectory",
+            about: "whether a taught robot moves by itself; goals of place_object move it anyway, once it is taught",
             range: Range::Any,
+        },
+        ParameterSpec {
+            name: "controller",
+            about: "action of a joint trajectory controller, such as /joint_trajectory_controller/follow_joint_trajectory; \
+                    empty: trajectories go out on /joint_trajectory",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "patience_s",
+            about: "a motion may take this much longer than planned, seconds",
+            range: Range::Float { min: 0.1, max: 600.0 },
+        },
+        ParameterSpec {
+            name: "joint_age_s",
+            about: "nothing moves when the joint states are older than this, seconds",
+            range: Range::Float { min: 0.01, max: 60.0 },
         },
         ParameterSpec {
             name: "republish_period_s",

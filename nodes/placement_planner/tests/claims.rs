@@ -1,12 +1,13 @@
 //! What is planned when, that nothing moves before its time, and that a plan is a function of what it names.
 
+use apprentice_msgs::action::PlaceObjectResult;
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{LessonStatus, PlacementPlan, PlacementQuery, Posterior, TableScene};
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::to_cdr;
 use bus::testing::check_parameters;
 use exchange::scene_to_message;
-use placement_planner::{Event, Output, PlacementPlanner, Request, Settings};
+use placement_planner::{Deed, Event, Output, PlacementPlanner, Request, Settings};
 use scene::{Object, Point, Rbf, Scene, Shape};
 
 const URDF: &str = include_str!("../../../config/urdf/table_arm.urdf");
@@ -119,9 +120,9 @@ fn nothing_moves_before_the_lesson_is_taught_and_then_once() {
     let other = step(&mut node, lesson(LessonStatus::TAUGHT, 2));
     assert!(!only_plan(&other).inside_bound, "taught is of another revision");
     let outputs = step(&mut node, lesson(LessonStatus::TAUGHT, 3));
-    let [Output::Plan(plan), Output::Trajectory(motion)] = outputs.as_slice() else { panic!("{outputs:?}") };
+    let [Output::Plan(plan), Output::Deed(Deed::Publish(motion))] = outputs.as_slice() else { panic!("{outputs:?}") };
     assert!(plan.inside_bound);
-    assert_eq!(motion, &plan.trajectory);
+    assert_eq!(**motion, plan.trajectory);
     let mut moved = scene();
     moved.objects[0].pose.position.x += 0.005;
     assert!(
@@ -129,10 +130,14 @@ fn nothing_moves_before_the_lesson_is_taught_and_then_once() {
         "planned anew, not moved again"
     );
     moved.objects[0].pose.position.x = 0.8;
-    assert!(
-        !only_plan(&step(&mut node, Event::Scene(Box::new(moved)))).inside_bound,
-        "the bound is not about this table"
-    );
+    let outputs = step(&mut node, Event::Scene(Box::new(moved)));
+    let [Output::Deed(Deed::Publish(halt)), Output::Deed(Deed::Over(over)), Output::Plan(plan)] = outputs.as_slice()
+    else {
+        panic!("{outputs:?}")
+    };
+    assert!(halt.points.is_empty(), "the arm stops");
+    assert_eq!(over.outcome, PlaceObjectResult::SCENE_CHANGED);
+    assert!(!plan.inside_bound, "the bound is not about this table");
 
     let mut still = PlacementPlanner::new(Settings { execute: false, ..Settings::default() });
     step(&mut still, Event::Joints(joints()));
@@ -147,7 +152,10 @@ fn nothing_moves_before_the_lesson_is_taught_and_then_once() {
     step(&mut lost, lesson(LessonStatus::TAUGHT, 3));
     only_plan(&step(&mut lost, Event::Posterior(Box::new(posterior(3)))));
     let found = step(&mut lost, Event::Joints(joints()));
-    assert!(matches!(found.as_slice(), [Output::Plan(_), Output::Trajectory(_)]), "an arm that is found may move");
+    assert!(
+        matches!(found.as_slice(), [Output::Plan(_), Output::Deed(Deed::Publish(_))]),
+        "an arm that is found may move"
+    );
 }
 
 #[test]
