@@ -11,6 +11,7 @@ struct Graph {
     topics: BTreeMap<String, Topic>,
     outside: BTreeSet<String>,
     nodes: BTreeMap<String, Node>,
+    actions: BTreeMap<String, Action>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -18,6 +19,13 @@ struct Graph {
 struct Topic {
     r#type: String,
     qos: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Action {
+    r#type: String,
+    server: String,
 }
 
 #[derive(Debug, Deserialize)]
@@ -48,6 +56,25 @@ fn every_type_is_in_the_interface_package_and_every_quality_of_service_is_a_know
         assert!(apprentice_msgs::schema(&topic.r#type).is_some(), "{name}: there is no type {}", topic.r#type);
         assert!(["stream", "event", "state", "log"].contains(&topic.qos.as_str()), "{name}: {}", topic.qos);
     }
+}
+
+#[test]
+fn every_action_is_served_by_the_node_that_the_graph_says() {
+    let server = Regex::new(r#"action_server::<(\w+)>\(\s*"([^"]+)""#).expect("a pattern");
+    let graph = graph();
+    let mut served = BTreeMap::new();
+    for name in graph.nodes.keys() {
+        for entry in std::fs::read_dir(top().join("nodes").join(name).join("src")).expect("a node's folder").flatten() {
+            let source = std::fs::read_to_string(entry.path()).unwrap_or_default();
+            for found in server.captures_iter(&source) {
+                served.insert(found[2].to_owned(), (format!("apprentice_msgs/action/{}", &found[1]), name.clone()));
+            }
+        }
+    }
+    let said: BTreeMap<String, (String, String)> =
+        graph.actions.into_iter().map(|(name, action)| (name, (action.r#type, action.server))).collect();
+    assert_eq!(said, served);
+    assert!(said.values().all(|(of_type, _)| apprentice_msgs::all_actions().contains(&of_type.as_str())));
 }
 
 #[test]

@@ -101,7 +101,7 @@ impl RecorderNode {
     }
 
     fn see(&mut self, found: &TopicInfo) -> Vec<Output> {
-        if found.publishers.is_empty() || !self.filter.takes(&found.name) {
+        if found.publishers.is_empty() || is_hidden(&found.name) || !self.filter.takes(&found.name) {
             return Vec::new();
         }
         match self.recorded.get(&found.name) {
@@ -186,4 +186,9 @@ fn nanoseconds(time: &Time) -> Option<u64> {
     let seconds = u64::try_from(time.sec).ok()?;
     let ns = seconds * 1_000_000_000 + u64::from(time.nanosec);
     (ns > 0).then_some(ns)
+}
+
+/// Whether a part of a name starts with an underscore, as the topics of actions do. rosbag2 leaves those out too.
+fn is_hidden(name: &str) -> bool {
+    name.split('/').any(|part| part.starts_with('_'))
 }

@@ -51,6 +51,13 @@ fn a_topic_nobody_publishes_is_not_recorded() {
 }
 
 #[test]
+fn hidden_topics_are_not_recorded() {
+    let feedback = "/apprentice/place_object/_action/feedback";
+    let of_type = "apprentice_msgs/action/PlaceObject_FeedbackMessage";
+    assert_eq!(node().step(Time::default(), Event::Graph(vec![topic(feedback, of_type, vec![reliable()])])), []);
+}
+
+#[test]
 fn a_publisher_that_offers_less_makes_the_recorder_ask_for_less() {
     let mut node = node();
     node.step(Time::default(), Event::Graph(vec![topic("/a", "std_msgs/msg/String", vec![reliable()])]));
