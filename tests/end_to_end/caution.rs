@@ -24,7 +24,10 @@ fn the_slider_shows_what_caution_costs_and_the_robot_follows_the_choice() {
     page.wait("the lesson's end", "document.getElementById('state').dataset.value === 'taught'");
     assert_eq!(page.value("document.getElementById('lesson-table').hidden"), true);
     let risk = page.value("document.getElementById('world-risk').textContent");
-    assert!(risk.as_str().is_some_and(|words| words.contains("In the worst 5 % of what the person may mean")), "{risk}");
+    assert!(
+        risk.as_str().is_some_and(|words| words.contains("In the worst 5 % of what the person may mean")),
+        "{risk}"
+    );
     // The keyboard moves the slider: a preview, which the robot does not follow yet.
     page.value("document.getElementById('lambda').focus()");
     page.key("ArrowRight");

@@ -40,7 +40,8 @@ fn is_whole(taught: &Taught) -> Recorded {
     assert_eq!(final_policy.world, last.world);
     // The policy is judged, by draws that did not choose it, and the lesson ends by that judgement.
     let sets = bag.distinct::<PolicySet>("policies");
-    let set = sets.iter().find(|set| set.id == format!("robust-{}-0", last.revision)).expect("it was sent to be judged");
+    let set =
+        sets.iter().find(|set| set.id == format!("robust-{}-0", last.revision)).expect("it was sent to be judged");
     assert_eq!(set.policies[0].action_probabilities, final_policy.action_probabilities);
     let judged = bag.distinct::<PolicyBounds>("policy_bounds");
     let bounds = judged.iter().find(|bounds| bounds.set_id == set.id).expect("it was judged");

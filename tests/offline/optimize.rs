@@ -110,8 +110,7 @@ fn posterior_weights_count() {
     let mut numbers = Uniform(3);
     let mut next = || 2.0 * numbers.next().expect("endless") - 1.0;
     // The cup is worth something under every draw, or else staying at home would be best whatever the weights.
-    let rows: Vec<String> =
-        (0..60).map(|_| format!("{:?},{:?},{:?}", 0.7 + 0.5 * next(), next(), next())).collect();
+    let rows: Vec<String> = (0..60).map(|_| format!("{:?},{:?},{:?}", 0.7 + 0.5 * next(), next(), next())).collect();
     folder.write("draws.csv", rows.join("\n"));
     // Each draw as often as its weight says.
     let times = |i: usize| i % 4;

@@ -32,7 +32,14 @@ fn every_shipped_parameter_file_is_good_for_every_node() {
 fn every_node_tells_its_parameters() {
     let help = words(&apprentice(&["help"]));
     let nodes = ["demonstrator", "simulated_table", "reward_posterior", "performance_bounds", "active_query"];
-    for node in nodes.into_iter().chain(["simulated_world", "policy_optimizer", "placement_planner", "session_recorder", "bag_player", "operator_ui"]) {
+    for node in nodes.into_iter().chain([
+        "simulated_world",
+        "policy_optimizer",
+        "placement_planner",
+        "session_recorder",
+        "bag_player",
+        "operator_ui",
+    ]) {
         assert!(help.contains(node), "`apprentice help` does not tell of {node}:\n{help}");
         let output = apprentice(&[node, "--help"]);
         assert!(output.status.success(), "{node} --help: {}", words(&output));

@@ -36,7 +36,7 @@ pub enum Event {
     /// Somebody asks for an object to be placed, or not any more.
     Place(ActionRequest<PlaceObject>),
     /// The controller tells of a motion.
-    Controller(ActionEvent<FollowJointTrajectory>),
+    Controller(Box<ActionEvent<FollowJointTrajectory>>),
     /// Some time has passed.
     Tick {
         /// Whether the controller can be heard.
@@ -166,7 +166,7 @@ impl PlacementPlanner {
             Event::RobotDescription(urdf) => return self.robot(now, &urdf),
             Event::Joints(joints) => return self.take_joints(now, &joints),
             Event::Place(request) => return self.place(now, request),
-            Event::Controller(event) => return deeds(self.carrier.hear(now, event)),
+            Event::Controller(event) => return deeds(self.carrier.hear(now, *event)),
             Event::Tick { controller_is_there } => {
                 return deeds(self.carrier.tick(now, controller_is_there, &self.joints));
             }

@@ -29,7 +29,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let place = bus.action_server::<PlaceObject>("place_object", Event::Place)?;
     let controller = match settings.controller.as_str() {
         "" => None,
-        name => Some(bus.action_client::<FollowJointTrajectory>(name, Event::Controller)?),
+        name => Some(bus.action_client::<FollowJointTrajectory>(name, |event| Event::Controller(Box::new(event)))?),
     };
     bus.every(TICK, || Event::Tick { controller_is_there: false });
     bus.every(Duration::from_secs_f64(settings.republish_period_s), || Event::Republish);

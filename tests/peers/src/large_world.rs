@@ -18,8 +18,8 @@ const BETA: f64 = 100.0;
 const N_DEMONSTRATIONS: usize = 5;
 const LENGTH: usize = 100;
 const THREADS: usize = 2;
-/// Draws over four chains.
-const N_DRAWS: usize = 1000;
+/// Draws over four chains: worth more than the 400 that a bound needs of four chains.
+const N_DRAWS: usize = 2000;
 /// Iterations of warm-up per chain.
 const WARMUP: usize = 100;
 

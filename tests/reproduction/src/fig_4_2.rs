@@ -114,7 +114,7 @@ fn calibrate(
     believe(&problem.mdp, demonstrations, model, chains, |belief| {
         let counts = problem.greedy(&belief.draws.mean_weights()).1;
         let judged = belief.judge(problem, &counts)?;
-        let rank = rank(&belief.losses(&problem.mdp, &counts)?, judged.loss, at_random);
+        let rank = rank(&belief.losses(&counts), judged.loss, at_random);
         Ok((Calibrated { judged, rank }, judged.is_complete()))
     })
 }

@@ -2,10 +2,7 @@
 
 mod every_policy;
 
-use crate::chapter4::{
-    Demonstration, Evidence, PERFECT, Problem, Walk, believe, choices, least_risk_counts, optimal_values, purpose,
-    walk_on,
-};
+use crate::chapter4::{Demonstration, Evidence, PERFECT, Problem, Solved, Walk, believe, choices, purpose, walk_on};
 use crate::harness::plot::{Cell, Content, Grid, Picture};
 use crate::harness::{
     Claim, Estimate, Options, Outcome, ReproductionError, TextTable, generator, replicates, to_value,
@@ -14,7 +11,6 @@ use every_policy::EveryPolicy;
 use likelihood::actions::without_duplicates;
 use mdp::worlds::maze;
 use mdp::{Mdp, Policy, improve_policy, rollout};
-use risk::Tail;
 use serde::Serialize;
 use std::time::Instant;
 
@@ -106,8 +102,8 @@ fn one(problem: &Problem, every: &EveryPolicy, seed: u64, replicate: usize) -> R
     let ours = climb(problem, &draws.map_weights, &draws.values)?;
     let (found, seconds) = timed(|| every.safest(&draws.values, ALPHA));
     let (least, least_policy) = found;
-    let mixed = least_risk_counts(mdp, &draws.values, ALPHA);
-    let mixture = risk_of(&optimal_values(mdp, &draws.values), &draws.values, &mixed);
+    let solved = Solved::new(mdp, &draws.values);
+    let mixture = solved.value_at_risk(&solved.least_risk_counts(mdp, ALPHA), ALPHA);
     Ok(Row { published, ours, least, least_policy, seconds, mixture })
 }
 
@@ -122,20 +118,12 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
 fn climb(problem: &Problem, map: &[f64], draws: &[f64]) -> Result<Climb, ReproductionError> {
     let mdp = &problem.mdp;
     let (start, counts) = problem.greedy(map);
-    let best_values = optimal_values(mdp, draws);
-    let risk = |counts: &[f64]| risk_of(&best_values, draws, counts);
+    let solved = Solved::new(mdp, draws);
+    let risk = |counts: &[f64]| solved.value_at_risk(counts, ALPHA);
     let start_risk = risk(&counts);
     let better = improve_policy(mdp, &Policy::Deterministic(start.clone()), MOST_CHANGES, risk)?;
     let Policy::Deterministic(end) = better.policy else { unreachable!("a deterministic policy stays one") };
     Ok(Climb { map: map.to_vec(), start, start_risk, end, end_risk: better.objective, changes: better.n_changes })
-}
-
-/// The empirical .99-value at risk of a policy with these feature counts.
-fn risk_of(best_values: &[f64], draws: &[f64], counts: &[f64]) -> f64 {
-    let loss = |(value, w): (&f64, &[f64])| value - w[0] * counts[0] - w[1] * counts[1];
-    let mut losses: Vec<f64> = best_values.iter().zip(draws.chunks_exact(2)).map(loss).collect();
-    losses.sort_unstable_by(f64::total_cmp);
-    risk::value_at_risk(&losses, ALPHA, Tail::Upper).unwrap_or(f64::INFINITY)
 }
 
 fn table(rows: &[Row]) -> TextTable {

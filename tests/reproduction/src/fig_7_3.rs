@@ -3,7 +3,7 @@
 use crate::chapter7::{POINTS, lambdas, lower_mean, purpose, quantiles};
 use crate::harness::plot::{Content, Picture};
 use crate::harness::{
-    Claim, Estimate, Options, Outcome, ReproductionError, TextTable, generator, replicates, to_value,
+    Claim, Estimate, Options, Outcome, ReproductionError, TextTable, extent, generator, replicates, to_value,
 };
 use mdp::Mdp;
 use mdp::worlds::machine_replacement::{N_STATES, REPAIR, SCALES, WAIT, draws, world};
@@ -14,8 +14,8 @@ use serde::Serialize;
 /// Level of the tail and draws of the dissertation; draws that the fast solver allows; draws that policies are judged by.
 const ALPHA: f64 = 0.99;
 const N_DRAWS: usize = 2000;
-const MANY_DRAWS: usize = 20_000;
-const N_FRESH: usize = 200_000;
+const MANY_DRAWS: usize = extent(20_000, 3000);
+const N_FRESH: usize = extent(200_000, 10_000);
 /// E(return) of never repairing: every age is visited 1 / (4 (1 − γ)) = 5 times and costs scale / 2 on average.
 const NEVER_REPAIR: f64 = -5.0 * 0.5 * (20.0 + 40.0 + 80.0 + 190.0);
 /// λ that are told of.
@@ -231,7 +231,7 @@ fn picture(mdp: &Mdp, samples: &[Sample], fresh: &[f64]) -> Result<Picture, Repr
     for (colour, i) in [(1, POINTS - 1), (2, 10), (0, 0)] {
         let policy: Vec<f64> = sample.repairs[i].iter().flat_map(|p| [1.0 - p, *p]).collect();
         let counts = mdp::feature_counts(mdp, &mdp::Policy::Stochastic(policy))?;
-        let values = performance(mdp, &fresh[..20_000 * 2 * N_STATES], Objective::Robust, &counts, 1)?;
+        let values = performance(mdp, &fresh[..N_FRESH / 10 * 2 * N_STATES], Objective::Robust, &counts, 1)?;
         distributions.push(line(&format!("λ = {}", xs[i]), colour, Stroke::Solid, quantiles(&values)));
     }
     let drawn = charts(

@@ -7,7 +7,7 @@ use crate::chapter8::{
     ACTIVE_VAR, AS, Ask, BETA, OURS, RANDOM, Teacher, curve_panel, dense_world, first_demonstration, purpose,
 };
 use crate::harness::plot::{Content, Picture};
-use crate::harness::{Claim, Options, Outcome, ReproductionError, generator};
+use crate::harness::{Claim, Options, Outcome, ReproductionError, extent, generator};
 use inquiry::tabular::Over;
 use posterior::Run;
 
@@ -20,7 +20,7 @@ const LEVELS: [f64; 4] = [0.5, 0.2, 0.1, 0.05];
 
 /// How the robot learns in figures 8.2 and 8.3.
 pub fn sampling() -> Run {
-    Run { n_draws: 200, n_chains: 4, warmup: 100, threads: 1 }
+    Run { n_draws: extent(200, 40), n_chains: 4, warmup: 100, threads: 1 }
 }
 
 /// The world of a replicate, in both figures.

@@ -6,7 +6,7 @@ use crate::chapter8::tables::{Task, flowers, spoon};
 use crate::chapter8::{ACTIVE_VAR, Curve, Method, OURS_TABLE, RANDOM, curve_panel};
 use crate::harness::plot::{Content, Panel, Picture};
 use crate::harness::{
-    Claim, Estimate, Options, Outcome, ReproductionError, TextTable, generator, replicates, to_value,
+    Claim, Estimate, Options, Outcome, ReproductionError, TextTable, extent, generator, replicates, to_value,
 };
 use rand_chacha::rand_core::Rng;
 use serde_json::{Value, json};
@@ -20,11 +20,11 @@ const BOUNDED_AFTER: [usize; 3] = [0, 5, 10];
 /// What is done in every trial.
 const EXTENT: Extent = Extent {
     n_questions: 10,
-    n_tests: 200,
-    n_bounded: 30,
+    n_tests: extent(200, 10),
+    n_bounded: extent(30, 3),
     bounded_after: &BOUNDED_AFTER,
     n_draws: 300,
-    n_draws_bounded: 1200,
+    n_draws_bounded: extent(1200, 300),
 };
 /// Errors below this are none, cm.
 const NO_ERROR_CM: f64 = 1e-3;

@@ -56,7 +56,8 @@ impl Answers {
 
     /// Some answers out of very many, such as places: `densities` has one row of n per answer that was drawn from what the belief
     /// expects, the probability density of that answer under each draw. Each then stands for an equal share of all answers
-    /// (importance sampling): expectations over answers are right but for the drawing, whatever the unit of the densities.
+    /// (importance sampling): expectations over answers are right but for the drawing, whatever the unit of the densities. For scores
+    /// alone: which answers are a surprise, and whether answers fit, takes all of them.
     ///
     /// # Errors
     /// No answers, rows of another length, densities that are negative, not finite, or zero under every draw.

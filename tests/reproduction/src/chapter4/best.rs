@@ -1,11 +1,9 @@
 //! The posterior as we sample it, and the policies and bounds that follow from it.
 
-use super::{
-    ALPHAS, DELTA, Demonstration, Judged, Problem, choices, discounted_counts, least_risk_counts, safest_counts,
-};
-use crate::harness::ReproductionError;
+use super::{ALPHAS, DELTA, Demonstration, Judged, Problem, Solved, choices, discounted_counts};
+use crate::harness::{ReproductionError, extent};
 use likelihood::actions::{ActionLikelihood, without_duplicates};
-use mdp::{Mdp, policy_losses};
+use mdp::Mdp;
 use posterior::{Draws, EvidenceKind, Model, Prior, Rationality, Run, Term, TermLikelihood, draw};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -29,9 +27,9 @@ pub const PERFECT: Evidence =
     Evidence { rationality: Rationality::Learned { median: 112.0, log_sd: 0.75 }, repeats: false, wrong_rate: 0.0 };
 
 /// Draws first asked for.
-const DRAWS: usize = 4000;
+const DRAWS: usize = extent(4000, 1000);
 /// Most draws, before there is no bound.
-const MOST_DRAWS: usize = 16_000;
+const MOST_DRAWS: usize = extent(16_000, DRAWS);
 const N_CHAINS: usize = 4;
 
 /// A posterior of chapter 4.
@@ -39,6 +37,7 @@ const N_CHAINS: usize = 4;
 pub struct Belief {
     /// Its draws.
     pub draws: Draws,
+    solved: Solved,
     counts_shown: Vec<f64>,
 }
 
@@ -63,44 +62,35 @@ impl Belief {
     }
 
     /// Losses of a policy with these feature counts under every draw.
-    pub fn losses(&self, mdp: &Mdp, counts: &[f64]) -> Result<Vec<f64>, ReproductionError> {
-        Ok(policy_losses(mdp, counts, &self.draws.values, 1)?)
+    pub fn losses(&self, counts: &[f64]) -> Vec<f64> {
+        self.solved.losses(counts)
     }
 
     /// Judges a policy that was not chosen by its losses under these draws.
     pub fn judge(&self, problem: &Problem, counts: &[f64]) -> Result<Judged, ReproductionError> {
-        self.judge_by(problem, counts, &self.draws.values)
+        self.judge_by(problem, counts, &self.solved)
     }
 
     /// Chooses the policy of least .95-value at risk by the first halves of the chains and judges it by the second halves: the
     /// draws that chose it would flatter it.
     pub fn judge_least_risk(&self, problem: &Problem) -> Result<Judged, ReproductionError> {
-        let (first, second) = self.halves();
-        let counts = least_risk_counts(&problem.mdp, &first, ALPHAS[1]);
+        let [first, second] = self.halves();
+        let counts = first.least_risk_counts(&problem.mdp, ALPHAS[1]);
         self.judge_by(problem, &counts, &second)
     }
 
     /// The same among a few policies, given by their feature counts.
     pub fn judge_safest(&self, problem: &Problem, candidates: &[Vec<f64>]) -> Result<Judged, ReproductionError> {
-        let (first, second) = self.halves();
-        let counts = safest_counts(&problem.mdp, &first, ALPHAS[1], candidates);
-        self.judge_by(problem, counts, &second)
+        let [first, second] = self.halves();
+        self.judge_by(problem, first.safest_counts(ALPHAS[1], candidates), &second)
     }
 
-    /// The draws of the first halves of the chains, and of the second.
-    fn halves(&self) -> (Vec<f64>, Vec<f64>) {
-        let row = self.draws.n_features;
-        let half = self.draws.per_chain / 2 * row;
-        let (mut first, mut second) = (Vec::new(), Vec::new());
-        for chain in self.draws.values.chunks_exact(self.draws.per_chain * row) {
-            first.extend_from_slice(&chain[..half]);
-            second.extend_from_slice(&chain[half..]);
-        }
-        (first, second)
+    fn halves(&self) -> [Solved; 2] {
+        self.solved.halves(self.draws.n_chains, self.draws.n_features)
     }
 
-    fn judge_by(&self, problem: &Problem, counts: &[f64], draws: &[f64]) -> Result<Judged, ReproductionError> {
-        let losses = policy_losses(&problem.mdp, counts, draws, 1)?;
+    fn judge_by(&self, problem: &Problem, counts: &[f64], solved: &Solved) -> Result<Judged, ReproductionError> {
+        let losses = solved.losses(counts);
         let mut bounds = [None; 3];
         for (bound, alpha) in bounds.iter_mut().zip(ALPHAS) {
             *bound = upper_bound(&losses, self.draws.n_chains, alpha, DELTA)?.bound();
@@ -136,7 +126,8 @@ pub fn believe<T>(
         let mut key = [0; 32];
         generator.fill_bytes(&mut key);
         let draws = draw(&model, &run, generator.next_u64(), &key)?;
-        let (judged, complete) = judge(&Belief { draws, counts_shown: counts_shown.clone() })?;
+        let solved = Solved::new(mdp, &draws.values);
+        let (judged, complete) = judge(&Belief { draws, solved, counts_shown: counts_shown.clone() })?;
         if complete || n_draws >= MOST_DRAWS {
             return Ok(judged);
         }

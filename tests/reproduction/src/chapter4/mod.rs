@@ -15,7 +15,7 @@ pub use bounds::{ALPHAS, DELTA, accurate, printed_bound};
 pub use claims::at_least_alpha;
 pub use demonstrations::{Demonstration, Demonstrator, choices, demonstrate, discounted_counts};
 pub use judged::{BoundKind, Judged, accuracy, error, paired_errors, without_bound};
-pub use least_risk::{least_risk_counts, optimal_values, safest_counts};
+pub use least_risk::Solved;
 pub use printed_projection::last_by_printed_projection;
 pub use problem::Problem;
 pub use published::{Walk, keep, walk, walk_on};

@@ -60,7 +60,7 @@ pub fn run(comparison: &Comparison, options: &Options) -> Result<Outcome, Reprod
         seed: options.seed,
         notes: vec![
             "as published: L1 walk of 5,000 steps of .01, a tenth not kept, every 5th kept, β = 50, repeated pairs removed; solved exactly, so without the author's floor of .006".into(),
-            "ours: HMC, β of each kind of evidence learned; joint: both kinds of evidence in one posterior".into(),
+            "ours: HMC, β of each kind of evidence learned (a priori 1 to 2,500), 2,000 draws and up to 8,000 until R̂ ≤ 1.01; joint: both kinds of evidence in one posterior".into(),
             comparison.note.into(),
         ],
         tables: tables(comparison, &columns),
@@ -106,6 +106,11 @@ fn tables(comparison: &Comparison, columns: &[Vec<Learned>]) -> Vec<TextTable> {
     ours("joint evidence, ours", |learned| learned.joint);
     ours("learned β of actions, joint", |learned| learned.beta_actions);
     ours("learned β of preferences, joint", |learned| learned.beta_preferences);
+    let not_mixed = |column: &Vec<Learned>| {
+        let n: usize = column.iter().map(Learned::n_not_mixed).sum();
+        format!("{n} of {}", 3 * column.len())
+    };
+    table.row("posteriors of ours with R̂ > 1.01", columns.iter().map(not_mixed));
     for (name, row) in printed {
         table.row(name, row);
     }
@@ -131,13 +136,14 @@ fn claims(comparison: &Comparison, columns: &[Vec<Learned>], seed: u64) -> Vec<C
     }
     let pairs: Vec<(Estimate, Estimate)> = irl.into_iter().zip(rex).collect();
     claims.push(Claim::matched(comparison.claim.0, (comparison.claim.1)(&pairs), "as published"));
-    claims.push(joint_claim(columns, seed));
+    claims.extend(joint_claims(columns, seed));
     claims
 }
 
-/// Joint evidence loses no more than the better of both in any column, and less over all of them.
-fn joint_claim(columns: &[Vec<Learned>], seed: u64) -> Claim {
-    let mut worse = Vec::new();
+/// Joint evidence against the better of both, column by column and over all of them. Which is the better is known only to who
+/// knows the truth: the joint posterior is compared with a choice that nobody can make.
+fn joint_claims(columns: &[Vec<Learned>], seed: u64) -> [Claim; 2] {
+    let mut worse = false;
     let mut found = Vec::new();
     let mut sums = vec![0.0; columns[0].len()];
     for column in columns {
@@ -145,18 +151,20 @@ fn joint_claim(columns: &[Vec<Learned>], seed: u64) -> Claim {
         let better: Of = if mean(|l| l.irl) <= mean(|l| l.rex) { |l| l.irl } else { |l| l.rex };
         let differences: Vec<f64> = column.iter().map(|learned| learned.joint - better(learned)).collect();
         let [low, high] = bootstrap_interval(&differences, seed);
-        worse.push(low > 0.0 || Estimate::of(&differences).mean > 1e-3);
+        worse |= low > 0.0;
         found.push(format!("{:+.4} [{low:+.4}, {high:+.4}]", Estimate::of(&differences).mean));
         for (sum, difference) in sums.iter_mut().zip(&differences) {
             *sum += difference;
         }
     }
-    let [low, high] = bootstrap_interval(&sums, seed);
-    Claim::beaten(
-        "joint evidence: at most .001 above the better of both in every column, and better over all columns together",
-        !worse.contains(&true) && high < 0.0,
-        format!("differences {}; sum of columns [{low:+.4}, {high:+.4}]", found.join(", ")),
-    )
+    [
+        Claim::beaten(
+            "joint evidence is in no column worse than the better of both (no 95 % interval of the difference above 0)",
+            !worse,
+            found.join(", "),
+        ),
+        Claim::smaller("joint evidence is better than the better of both, summed over the columns", &sums, seed),
+    ]
 }
 
 fn picture(comparison: &Comparison, columns: &[Vec<Learned>]) -> Picture {

@@ -2,10 +2,10 @@
 
 use super::{Shown, World, purpose};
 use crate::chapter4::{Walk, keep, walk_on};
-use crate::harness::{ReproductionError, generator};
+use crate::harness::{ReproductionError, extent, generator};
 use likelihood::actions::{ActionLikelihood, ChoiceVerdict, without_duplicates};
 use likelihood::preferences::{Answer, AnswerModel, PreferenceLikelihood, Verdict};
-use posterior::{EvidenceKind, Model, Prior, Rationality, Run, Term, TermLikelihood, draw};
+use posterior::{Draws, EvidenceKind, Model, Prior, Rationality, Run, Term, TermLikelihood, draw};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use serde::Serialize;
@@ -16,6 +16,13 @@ const BETA: f64 = 50.0;
 const CHAPTER_6: Walk = Walk { steps: 5000, burn: 500, every: 5 };
 /// What is known of the rationality of either kind of evidence: 95 % of its prior lies between 1 and 2,500.
 const UNKNOWN: Rationality = Rationality::Learned { median: BETA, log_sd: 2.0 };
+
+/// Draws first asked for.
+const DRAWS: usize = extent(2000, 200);
+/// Most draws; chains that still do not agree are counted and shown.
+const MOST_DRAWS: usize = extent(8000, DRAWS);
+/// R̂ from which chains do not agree, as for a bound.
+const MOST_RHAT: f64 = 1.01;
 
 /// True losses of the policies that are optimal under the mean rewards.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -34,6 +41,15 @@ pub struct Learned {
     pub beta_actions: f64,
     /// Mean β of the preferences in the joint posterior.
     pub beta_preferences: f64,
+    /// Largest R̂ of ours: Bayesian IRL, Bayesian REX, joint.
+    pub rhat: [f64; 3],
+}
+
+impl Learned {
+    /// How many of our three posteriors are of chains that do not agree.
+    pub fn n_not_mixed(&self) -> usize {
+        self.rhat.iter().filter(|rhat| **rhat > MOST_RHAT).count()
+    }
 }
 
 /// Learns from what is shown in every way.
@@ -66,17 +82,19 @@ pub fn learn(
         likelihood: TermLikelihood::Preferences(preferences.clone()),
     };
     let mut chains = generator_of(purpose::CHAINS);
-    let (irl, _) = mean_reward(world, vec![actions.clone()], &mut chains)?;
-    let (rex, _) = mean_reward(world, vec![compared.clone()], &mut chains)?;
-    let (joint, betas) = mean_reward(world, vec![actions, compared], &mut chains)?;
+    let irl = believe(world, vec![actions.clone()], &mut chains)?;
+    let rex = believe(world, vec![compared.clone()], &mut chains)?;
+    let joint = believe(world, vec![actions, compared], &mut chains)?;
+    let loss = |draws: &Draws| world.loss_of(&draws.mean_weights());
     Ok(Learned {
         irl_published: world.loss_of(&mean(&irl_walk.draws, k)),
         rex_published: world.loss_of(&mean(&rex_walk.draws, k)),
-        irl: world.loss_of(&irl),
-        rex: world.loss_of(&rex),
-        joint: world.loss_of(&joint),
-        beta_actions: betas[0],
-        beta_preferences: betas[1],
+        irl: loss(&irl),
+        rex: loss(&rex),
+        joint: loss(&joint),
+        beta_actions: joint.betas[0].mean(),
+        beta_preferences: joint.betas[1].mean(),
+        rhat: [irl.rhat_max, rex.rhat_max, joint.rhat_max],
     })
 }
 
@@ -97,19 +115,22 @@ fn actions_term<'a>(world: &'a World, shown: &Shown) -> Result<Term<'a>, Reprodu
     })
 }
 
-/// Mean weights and mean β of every term.
-fn mean_reward(
-    world: &World,
-    terms: Vec<Term<'_>>,
-    generator: &mut ChaCha8Rng,
-) -> Result<(Vec<f64>, Vec<f64>), ReproductionError> {
+/// Samples the posterior of some evidence, with more draws for as long as the chains do not agree. What all chains say together is
+/// worth nothing before: one that is stuck where the evidence is improbable spoils a mean.
+fn believe(world: &World, terms: Vec<Term<'_>>, generator: &mut ChaCha8Rng) -> Result<Draws, ReproductionError> {
     let n_features = world.mdp.n_features();
     let model = Model { n_features, prior: Prior::L1Sphere, nonnegative_return: None, terms };
-    let run = Run { n_draws: 2000, n_chains: 4, warmup: 300, threads: 1 };
-    let mut key = [0; 32];
-    generator.fill_bytes(&mut key);
-    let draws = draw(&model, &run, generator.next_u64(), &key)?;
-    Ok((draws.mean_weights(), draws.betas.iter().map(|betas| betas.mean()).collect()))
+    let mut n_draws = DRAWS;
+    loop {
+        let run = Run { n_draws, n_chains: 4, warmup: 300.max(n_draws / 10), threads: 1 };
+        let mut key = [0; 32];
+        generator.fill_bytes(&mut key);
+        let draws = draw(&model, &run, generator.next_u64(), &key)?;
+        if draws.rhat_max <= MOST_RHAT || n_draws >= MOST_DRAWS {
+            return Ok(draws);
+        }
+        n_draws *= 2;
+    }
 }
 
 fn mean(draws: &[f64], k: usize) -> Vec<f64> {

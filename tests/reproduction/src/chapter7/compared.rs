@@ -2,7 +2,7 @@
 
 use super::corridor::{Corridor, N_CHAINS, red_share};
 use super::{lambdas, lower_mean, purpose};
-use crate::harness::{ReproductionError, generator};
+use crate::harness::{ReproductionError, extent, generator};
 use mdp::worlds::{DOWN, LEFT};
 use mdp::{Policy, feature_counts};
 use robust::{
@@ -14,7 +14,7 @@ use serde::Serialize;
 /// Level of the tail, and draws of ours that policies are chosen and judged by.
 pub(super) const ALPHA: f64 = 0.95;
 const N_DRAWS: usize = 2000;
-const N_FRESH: usize = 20_000;
+const N_FRESH: usize = extent(20_000, 2000);
 
 /// Whose draws of the posterior policies are chosen by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

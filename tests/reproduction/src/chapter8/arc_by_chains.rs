@@ -3,7 +3,7 @@
 use super::compare::Situation;
 use super::{BETA, cpu_seconds, purpose};
 use crate::chapter4::{Walk, walk_on};
-use crate::harness::{ReproductionError, generator};
+use crate::harness::{ReproductionError, extent, generator};
 use likelihood::actions::{Choice, ChoiceVerdict};
 use mdp::random::index;
 use mdp::{Policy, Solver, rollout};
@@ -13,7 +13,7 @@ pub const PATHS: usize = 8;
 /// and of which one is timed.
 const TIMED: usize = 1;
 /// His chain.
-const CHAIN: Walk = Walk { steps: 10_000, burn: 50, every: 20 };
+const CHAIN: Walk = Walk { steps: extent(10_000, 300), burn: 50, every: 20 };
 
 /// What it took.
 #[derive(Debug, Clone, Copy)]

@@ -7,7 +7,7 @@ use inquiry::{
     Belief, DrawnOptima, InquiryError, Question, QuestionKind, Round, Selecting, Selection, Strategy, select,
 };
 use likelihood::actions::Choice;
-use mdp::{Mdp, Policy, rollout};
+use mdp::{Policy, rollout};
 use posterior::Draws;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;

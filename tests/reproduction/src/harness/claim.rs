@@ -1,10 +1,10 @@
 //! What is claimed about a figure, and whether it holds.
 
 use super::statistics::bootstrap_interval;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Against what a claim is made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClaimKind {
     /// The dissertation's result is found again.
@@ -14,7 +14,7 @@ pub enum ClaimKind {
 }
 
 /// A claim and its evidence; one that does not hold is printed like any other.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Claim {
     /// Against what.
     pub kind: ClaimKind,

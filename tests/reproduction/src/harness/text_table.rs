@@ -1,9 +1,9 @@
 //! A table of text with aligned columns, for terminals and for Markdown.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Rows of cells below a head.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TextTable {
     /// What it shows.
     pub title: String,
@@ -46,6 +46,17 @@ impl TextTable {
         lines.extend(self.rows.iter().map(|row| line(row)));
         lines.join("\n")
     }
+
+    /// For a report.
+    pub fn markdown(&self) -> String {
+        let line = |row: &[String]| {
+            let cells: Vec<String> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
+            format!("| {} |", cells.join(" | "))
+        };
+        let mut lines = vec![format!("{}:\n", self.title), line(&self.head), "|---".repeat(self.head.len()) + "|"];
+        lines.extend(self.rows.iter().map(|row| line(row)));
+        lines.join("\n")
+    }
 }
 
 #[cfg(test)]
@@ -57,6 +68,8 @@ mod tests {
         let mut table = TextTable::new("Accuracy", &["bound", "1", "9"]);
         table.row("VaR .95", ["0.97".into(), "1".into()]);
         table.row("α", ["–".into()]);
+        let markdown = "Accuracy:\n\n| bound | 1 | 9 |\n|---|---|---|\n| VaR .95 | 0.97 | 1 |\n| α | – |  |";
+        assert_eq!(table.markdown(), markdown);
         assert_eq!(table.text(), "Accuracy\n  bound        1   9\n  VaR .95   0.97   1\n  α            –");
     }
 }

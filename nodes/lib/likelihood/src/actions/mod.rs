@@ -3,6 +3,7 @@
 mod choice;
 mod error;
 mod evaluator;
+mod log_product;
 
 pub use choice::{Choice, ChoiceVerdict, without_duplicates};
 pub use error::ActionError;

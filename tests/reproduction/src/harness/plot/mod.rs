@@ -35,16 +35,19 @@ pub enum Content {
     Panels(Vec<Panel>),
     /// Grids of cells with arrows, side by side.
     Grids(Vec<Grid>),
+    /// The text of a whole SVG file, which `picture` has drawn.
+    Drawn(String),
 }
 
 impl Picture {
     /// Writes it as an SVG file.
     pub fn write(&self, path: &Path) -> Result<(), ReproductionError> {
+        let fail = |message: String| ReproductionError::File { path: path.display().to_string(), message };
         let size = match &self.content {
+            Content::Drawn(svg) => return std::fs::write(path, svg).map_err(|error| fail(error.to_string())),
             Content::Panels(panels) => (if panels.len() == 1 { 640 } else { 1000 }, 470),
             Content::Grids(grids) => (290 * grids.len() as u32 + 20, 400),
         };
-        let fail = |message: String| ReproductionError::File { path: path.display().to_string(), message };
         let area = SVGBackend::new(path, size).into_drawing_area();
         self.draw(&area).and_then(|()| Ok(area.present()?)).map_err(|error| fail(error.to_string()))
     }
@@ -56,6 +59,7 @@ impl Picture {
         match &self.content {
             Content::Panels(panels) => panels::draw(&body, panels),
             Content::Grids(grids) => grids::draw(&body, grids),
+            Content::Drawn(_) => Ok(()),
         }
     }
 }
