@@ -192,7 +192,7 @@ fn drawn() -> Posterior {
     let names = ["cup", "plate"].map(String::from).into_iter().chain((0..9).map(|i| format!("table {i}")));
     let draw = |i: usize| {
         let mut w = [0.0_f32; 11];
-        w[1] = if i % 2 == 0 { 0.4 } else { -0.4 };
+        w[1] = if i.is_multiple_of(2) { 0.4 } else { -0.4 };
         w[6] = 0.6;
         w
     };
