@@ -9,7 +9,7 @@ use crate::model::Mdp;
 use crate::policy::Policy;
 
 /// Largest number of multiplications that factors are taken without asking whether sweeps cost less.
-const CHEAP: f64 = 2e7;
+const CHEAP: f64 = 2e5;
 /// Largest number of numbers that factors may take.
 const MAX_FACTORS: usize = 50_000_000;
 
@@ -49,6 +49,31 @@ impl Rows {
         (&self.targets[range.clone()], &self.weights[range])
     }
 
+    /// No order of the states is narrower than this: states that are reached within d steps all lie within d bandwidths of where the
+    /// steps began, so there are at most 2 d bandwidths and one of them.
+    fn least_bandwidth(&self) -> usize {
+        let n = self.starts.len() - 1;
+        let mut seen = vec![false; n];
+        let (mut states, mut least) = (vec![0_u32], 0);
+        seen[0] = true;
+        let (mut from, mut steps) = (0, 0);
+        while from < states.len() {
+            steps += 1;
+            let to = states.len();
+            for i in from..to {
+                for &target in self.row(states[i] as usize).0 {
+                    if !seen[target as usize] {
+                        seen[target as usize] = true;
+                        states.push(target);
+                    }
+                }
+            }
+            from = to;
+            least = least.max((states.len() - 1).div_ceil(2 * steps));
+        }
+        least
+    }
+
     fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + Clone {
         (0..self.starts.len() - 1).flat_map(|state| {
             let (targets, weights) = self.row(state);
@@ -61,16 +86,20 @@ impl Chain {
     /// The chain of a valid policy; `width` right-hand sides are to be expected.
     pub(crate) fn new(mdp: &Mdp, policy: &Policy, width: usize) -> Self {
         let (n, rows) = (mdp.n_states(), Rows::new(mdp, policy));
-        let order = narrow_order(n, rows.entries().map(|(state, target, _)| (state, target)));
-        let work = Banded::work(n, order.bandwidth);
         // Sweeps shrink the error by γ each at least, mostly by far more.
         let sweeping = rows.weights.len() as f64 * width as f64 * 10.0 / (1.0 - rows.gamma);
-        let affordable = Banded::size(n, order.bandwidth) <= MAX_FACTORS && (work <= CHEAP || work <= sweeping);
-        if affordable || rows.gamma > MAX_GAMMA_LARGE {
-            Self::Factors(Banded::new(&order, rows.entries()))
-        } else {
-            Self::Sweeps(Sweeps::new(n, rows.gamma, 1.0, |state| rows.row(state)))
+        let affordable = |bandwidth: usize| {
+            let work = Banded::work(n, bandwidth);
+            Banded::size(n, bandwidth) <= MAX_FACTORS && (work <= CHEAP || work <= sweeping)
+        };
+        let always = rows.gamma > MAX_GAMMA_LARGE;
+        if always || affordable(rows.least_bandwidth()) {
+            let order = narrow_order(n, rows.entries().map(|(state, target, _)| (state, target)));
+            if always || affordable(order.bandwidth) {
+                return Self::Factors(Banded::new(&order, rows.entries()));
+            }
         }
+        Self::Sweeps(Sweeps::new(n, rows.gamma, 1.0, |state| rows.row(state)))
     }
 
     /// Solves (I − γP) x = b in place for `width` right-hand sides, S × `width` row by row.

@@ -18,11 +18,12 @@ pub(crate) fn narrow_order(n: usize, edges: impl Iterator<Item = (usize, usize)>
     let neighbours = Neighbours::new(n, edges);
     let mut states: Vec<u32> = Vec::with_capacity(n);
     let mut seen = vec![false; n];
+    let mut marks = Marks { last: vec![0; n], search: 0 };
     let mut by_degree: Vec<u32> = (0..n as u32).collect();
     by_degree.sort_by_key(|&state| neighbours.of(state).len());
     for &seed in &by_degree {
         if !seen[seed as usize] {
-            let start = neighbours.far_end(seed);
+            let start = neighbours.far_end(seed, &mut marks);
             neighbours.breadth_first(start, &mut seen, &mut states);
         }
     }
@@ -38,6 +39,24 @@ pub(crate) fn narrow_order(n: usize, edges: impl Iterator<Item = (usize, usize)>
         }
     }
     Order { states, places, bandwidth }
+}
+
+/// Which states a search has met; as many searches as wanted without clearing anything.
+struct Marks {
+    /// The last search that met each state.
+    last: Vec<usize>,
+    search: usize,
+}
+
+impl Marks {
+    fn begin(&mut self) {
+        self.search += 1;
+    }
+
+    /// Whether this search meets `state` for the first time.
+    fn is_new(&mut self, state: u32) -> bool {
+        std::mem::replace(&mut self.last[state as usize], self.search) != self.search
+    }
 }
 
 /// Who leads to whom, in either direction; each list ascending by the number of neighbours.
@@ -90,10 +109,10 @@ impl Neighbours {
     }
 
     /// A state of the component of `seed` about as far from the others as any (George and Liu 1979).
-    fn far_end(&self, seed: u32) -> u32 {
-        let (mut start, mut reach) = self.farthest(seed);
+    fn far_end(&self, seed: u32, marks: &mut Marks) -> u32 {
+        let (mut start, mut reach) = self.farthest(seed, marks);
         loop {
-            let (end, farther) = self.farthest(start);
+            let (end, farther) = self.farthest(start, marks);
             if farther <= reach {
                 return start;
             }
@@ -102,20 +121,19 @@ impl Neighbours {
     }
 
     /// The last state reached from `start`, of fewest neighbours, and in how many steps.
-    fn farthest(&self, start: u32) -> (u32, usize) {
-        let mut steps = std::collections::HashMap::from([(start, 0_usize)]);
-        let mut queue = VecDeque::from([start]);
+    fn farthest(&self, start: u32, marks: &mut Marks) -> (u32, usize) {
+        marks.begin();
+        marks.is_new(start);
+        let mut queue = VecDeque::from([(start, 0)]);
         let mut best = (start, 0);
-        while let Some(state) = queue.pop_front() {
-            let reached = steps[&state];
+        while let Some((state, reached)) = queue.pop_front() {
             if reached > best.1 || (reached == best.1 && self.of(state).len() < self.of(best.0).len()) {
                 best = (state, reached);
             }
             for &other in self.of(state) {
-                steps.entry(other).or_insert_with(|| {
-                    queue.push_back(other);
-                    reached + 1
-                });
+                if marks.is_new(other) {
+                    queue.push_back((other, reached + 1));
+                }
             }
         }
         best

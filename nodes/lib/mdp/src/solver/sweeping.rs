@@ -29,6 +29,8 @@ pub(super) struct Sweeping {
     policy: Vec<usize>,
     /// Its rewards.
     rewards: Vec<f64>,
+    /// Whether no state is terminal.
+    never_ends: bool,
 }
 
 impl Sweeping {
@@ -36,7 +38,8 @@ impl Sweeping {
         let policy = vec![0; mdp.n_states()];
         let mut memory = Memory::new(policy.len() * (mdp.n_features() + 2));
         let current = memory.add(Evaluated::new(policy.clone()));
-        Self { current, memory, rewards: vec![0.0; policy.len()], policy }
+        let never_ends = (0..policy.len()).all(|state| !mdp.is_terminal(state));
+        Self { current, memory, rewards: vec![0.0; policy.len()], policy, never_ends }
     }
 
     /// The policy last found.
@@ -78,11 +81,8 @@ impl Sweeping {
                 layout = Some((sweeps, prepared));
             }
             let (sweeps, prepared) = layout.as_ref().expect("laid out in the first round");
-            for _ in 0..MAX_SWEEPS {
-                if sweeps.sweep(prepared, values) <= (SHARE * residual).max(0.5 * enough) {
-                    break;
-                }
-            }
+            let residual = if self.never_ends { shift(&working.greedy.best, values, gamma) } else { residual };
+            sweeps.relax(prepared, values, (SHARE * residual).max(0.5 * enough), MAX_SWEEPS);
         }
         if working.greedy.first != self.current.actions {
             let first = &working.greedy.first;
@@ -107,6 +107,19 @@ impl Sweeping {
         }
         improved
     }
+}
+
+/// Adds the same to all values, so that `best`, what one backup makes of them, lies as far above as below: where nothing ends,
+/// TV + c becomes TV + γ c (Porteus 1975). The largest difference that is left.
+///
+/// Sweeps shrink differences between states fast, but what all states have in common only by γ each.
+fn shift(best: &[f64], values: &mut [f64], gamma: f64) -> f64 {
+    let differences = best.iter().zip(&*values).map(|(best, value)| best - value);
+    let (least, most) =
+        differences.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| (least.min(x), most.max(x)));
+    let all = 0.5 * (least + most) / (1.0 - gamma);
+    values.iter_mut().for_each(|value| *value += all);
+    0.5 * (most - least)
 }
 
 fn largest_difference(x: &[f64], y: &[f64]) -> f64 {
