@@ -70,7 +70,7 @@ where
 fn every_message_agrees_with_an_independent_implementation() {
     let golden = Golden::read();
     let mut seen = BTreeSet::new();
-    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 143] = [
+    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 145] = [
         check::<msg::ActionDemonstration>,
         check::<msg::Candidates>,
         check::<msg::CritiqueSegment>,
@@ -108,7 +108,9 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<msg::TableScene>,
         check::<msg::TabularWorld>,
         check::<msg::TrajectoryPreference>,
+        check::<msg::WorldQuery>,
         check::<msg::WorldReference>,
+        check::<msg::WorldTrajectory>,
         check::<action_msgs::GoalInfo>,
         check::<action_msgs::GoalStatus>,
         check::<action_msgs::GoalStatusArray>,

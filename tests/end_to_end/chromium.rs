@@ -60,8 +60,7 @@ impl Page {
         for domain in ["Page", "Runtime", "Log"] {
             page.command(&format!("{domain}.enable"), json!({}));
         }
-        let size = json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
-        page.command("Emulation.setDeviceMetricsOverride", size);
+        page.resize(width, height);
         page.command("Page.navigate", json!({"url": address}));
         page.wait("page", "location.href !== 'about:blank' && document.readyState === 'complete'");
         page
@@ -170,13 +169,24 @@ impl Page {
     /// Presses a key on whatever has the focus.
     pub fn key(&mut self, key: &str) {
         let code = match key {
+            "ArrowUp" => 38,
             "ArrowRight" => 39,
+            "ArrowDown" => 40,
             "ArrowLeft" => 37,
             "Enter" => 13,
+            "Tab" => 9,
+            " " => 32,
+            "b" => 66,
+            "g" => 71,
             other => panic!("add the key {other} to this list"),
         };
-        for kind in ["rawKeyDown", "keyUp"] {
-            let params = json!({"type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code});
+        // A key that types something does what a button does on a space, only with its text.
+        let down = if key.len() == 1 { "keyDown" } else { "rawKeyDown" };
+        for kind in [down, "keyUp"] {
+            let mut params = json!({"type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code});
+            if kind == "keyDown" {
+                params["text"] = json!(key);
+            }
             self.command("Input.dispatchKeyEvent", params);
         }
     }
@@ -185,6 +195,12 @@ impl Page {
         let button = if kind == "mouseMoved" && buttons == 0 { "none" } else { "left" };
         let params = json!({"type": kind, "x": at.0, "y": at.1, "button": button, "buttons": buttons, "clickCount": 1});
         self.command("Input.dispatchMouseEvent", params);
+    }
+
+    /// Makes the page as large as that, in pixels.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        let size = json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
+        self.command("Emulation.setDeviceMetricsOverride", size);
     }
 
     /// Keeps a picture of the page for people to look at.

@@ -1,5 +1,6 @@
 //! Whole lessons: the executable with every node in a process of its own, over DDS on loopback, as a person starts it.
 
+mod asking;
 mod bad_command_lines;
 mod caution;
 mod chromium;

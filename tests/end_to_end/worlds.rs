@@ -1,11 +1,11 @@
-//! Lessons about worlds: a simulated person teaches a garden and a road until what the robot may lose is small.
+//! Lessons about worlds: the robot asks a simulated person about a garden and a road until what it may lose is small.
 
 use crate::recorded::Recorded;
 use crate::suite::run;
 use crate::taught::{Taught, teach};
 use apprentice_msgs::msg::{
-    ActionDemonstration, LessonStatus, PolicyBounds, PolicyFrontier, PolicySet, Posterior, RobustPolicy, TabularWorld,
-    TrajectoryPreference,
+    ActionDemonstration, LessonStatus, PolicyBounds, PolicyFrontier, PolicySet, Posterior, RobustPolicy,
+    SegmentCritique, TabularWorld, TrajectoryPreference, WorldQuery,
 };
 use exchange::world_from_message;
 use mdp::{Policy, Solver, feature_counts};
@@ -19,7 +19,7 @@ fn is_replayed(taught: &Taught) -> Value {
     let report: Value = serde_json::from_slice(&output.stdout).expect("--json gives JSON");
     let compared = report["verification"].clone();
     assert!(compared["mismatch"].is_null(), "{compared}");
-    for kind in ["posteriors", "policy_bounds", "robust_policies", "frontiers", "lessons"] {
+    for kind in ["posteriors", "policy_bounds", "robust_policies", "frontiers", "lessons", "world_queries"] {
         assert!(compared[kind]["recorded"].as_u64() > Some(0), "{kind}: {compared}");
     }
     compared
@@ -71,12 +71,29 @@ fn truly_lost(bag: &Recorded, weights: &[f64]) -> f64 {
     (best - value(&Policy::Stochastic(table))) / (best - value(&Policy::uniform(&world.mdp)))
 }
 
+/// Every kind of question was asked, and every answer answers one.
+fn is_asked(bag: &Recorded) {
+    let asked = bag.distinct::<WorldQuery>("world_query");
+    for kind in [WorldQuery::ACTION, WorldQuery::CRITIQUE, WorldQuery::COMPARISON] {
+        assert!(asked.iter().any(|query| query.kind == kind), "no question of kind {kind}");
+    }
+    let find = |id: &str| asked.iter().find(|query| query.id == id);
+    let shown = bag.distinct::<ActionDemonstration>("action_demonstration");
+    let (unasked, acted): (Vec<_>, Vec<_>) = shown.iter().partition(|answer| answer.query_id.is_empty());
+    assert_eq!(unasked.len(), 1, "one walk begins the lesson");
+    assert!(acted.iter().all(|m| find(&m.query_id).is_some_and(|query| m.states == [query.state])), "{acted:?}");
+    let marked = bag.distinct::<SegmentCritique>("critique");
+    assert!(marked.iter().all(|m| find(&m.query_id).is_some_and(|query| m.states == query.trajectories[0].states)));
+    let compared = bag.distinct::<TrajectoryPreference>("preference");
+    assert!(compared.iter().all(|m| find(&m.query_id).is_some_and(|query| query.kind == WorldQuery::COMPARISON)));
+    assert!(!acted.is_empty() && !marked.is_empty() && !compared.is_empty());
+}
+
 #[test]
-fn a_garden_is_taught_by_walks_and_comparisons_and_replayed_to_the_bit() {
+fn a_garden_is_taught_by_answers_to_questions_and_replayed_to_the_bit() {
     let taught = teach("grid", &["--scenario", "grid", "--seed", "1"]);
     let bag = is_whole(&taught);
-    assert!(!bag.distinct::<ActionDemonstration>("action_demonstration").is_empty());
-    assert!(!bag.distinct::<TrajectoryPreference>("preference").is_empty());
+    is_asked(&bag);
     let world = bag.distinct::<TabularWorld>("world").remove(0);
     assert_eq!((world.id.as_str(), world.shape.as_slice()), ("garden", [6, 7].as_slice()));
     let lost = truly_lost(&bag, &[-0.02, -0.08, -0.45, -0.15, 0.3]);
@@ -88,9 +105,10 @@ fn a_garden_is_taught_by_walks_and_comparisons_and_replayed_to_the_bit() {
 }
 
 #[test]
-fn a_road_is_taught_by_driving_and_replayed_to_the_bit() {
+fn a_road_is_taught_by_answers_to_questions_and_replayed_to_the_bit() {
     let taught = teach("driving", &["--scenario", "driving", "--seed", "1"]);
     let bag = is_whole(&taught);
+    is_asked(&bag);
     let world = bag.distinct::<TabularWorld>("world").remove(0);
     assert_eq!((world.shape_of, world.shape.as_slice()), (TabularWorld::ROAD, [5, 7].as_slice()));
     let lost = truly_lost(&bag, &[-0.45, -0.2, 0.0, 0.05, 0.1, -0.2]);

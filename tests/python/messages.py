@@ -168,6 +168,7 @@ class FeatureTrajectory(IdlStruct, typename="apprentice_msgs::msg::dds_::Feature
 class ActionDemonstration(IdlStruct, typename="apprentice_msgs::msg::dds_::ActionDemonstration_"):
     header: Header = field(default_factory=Header)
     id: str = ""
+    query_id: str = ""
     source: str = ""
     world_id: str = ""
     states: sequence[uint32] = field(default_factory=list)

@@ -67,7 +67,9 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/TableScene",
     "apprentice_msgs/msg/TabularWorld",
     "apprentice_msgs/msg/TrajectoryPreference",
+    "apprentice_msgs/msg/WorldQuery",
     "apprentice_msgs/msg/WorldReference",
+    "apprentice_msgs/msg/WorldTrajectory",
     "builtin_interfaces/msg/Duration",
     "builtin_interfaces/msg/Time",
     "control_msgs/msg/JointComponentTolerance",
@@ -267,6 +269,7 @@ uint8 CONFIDENCE_GUESS=2
 
 std_msgs/Header header
 string id                        # unique within a session
+string query_id                  # the asker's question; empty: volunteered
 string source                    # who: a node or a person
 string world_id
 uint32[] states                  # any states in any order, each as often as it was shown
@@ -817,9 +820,37 @@ FeatureTrajectory[] trajectories # two or more, each once
 uint8 answer
 uint8 confidence
 "#),
+    ("apprentice_msgs/msg/WorldQuery", r#"# The open question about a world. Republished until evidence with its id answers it, or a QueryResponse.
+uint8 ACTION=0                   # what to do in the state; answered by an ActionDemonstration of that state
+uint8 CRITIQUE=1                 # what is good and what is bad in the trajectory; answered by a SegmentCritique of it
+uint8 COMPARISON=2               # which of the two trajectories is better; answered by a TrajectoryPreference of the two
+
+std_msgs/Header header           # stamp of the posterior
+string id
+uint64 revision                  # of the posterior it comes from
+WorldReference world
+uint8 kind
+uint32 state                     # that it is about; where the trajectories begin
+WorldTrajectory[<=2] trajectories  # none, one or two by kind; the first of two, by lot, is shown on the left
+string reason                    # what is asked, and why, in words
+float64 value_at_risk            # from the state on the MAP policy loses no more than this under alpha of the rewards that fit
+float64 alpha
+float64 gain                     # nats: what the answer is expected to tell; NaN where it was not chosen by that
+float64 gain_per_second          # of the person's time
+bool held_out                    # drawn at random, so that the answer is fair evidence against the model
+uint32 n_candidates              # how many questions it was chosen from
+float64 loss_bound               # on the normalised loss of the robot's policy; NaN without one
+float64 epsilon_loss             # the lesson ends below it
+"#),
     ("apprentice_msgs/msg/WorldReference", r#"# Which TabularWorld; the world itself is on the topics `world` and `lesson_world`.
 string id
 string hash                      # SHA-256 of the message without its header, hex
+"#),
+    ("apprentice_msgs/msg/WorldTrajectory", r#"# A trajectory of a world that a question shows.
+string id                        # unique within a session; of the FeatureTrajectory that stands for it in an answer
+uint32[] states
+uint32[] actions                 # taken in each of the states
+float64[] features               # one per weight, as in FeatureTrajectory
 "#),
     ("apprentice_msgs/srv/SetPaused", r#"# Pauses or resumes a running replay.
 bool paused

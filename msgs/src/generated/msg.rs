@@ -11,6 +11,8 @@ pub struct ActionDemonstration {
     pub header: super::std_msgs::Header,
     /// unique within a session (`string`)
     pub id: std::string::String,
+    /// the asker's question; empty: volunteered (`string`)
+    pub query_id: std::string::String,
     /// who: a node or a person (`string`)
     pub source: std::string::String,
     /// (`string`)
@@ -1316,6 +1318,57 @@ impl crate::Message for TrajectoryPreference {
     const TYPE: &'static str = "apprentice_msgs/msg/TrajectoryPreference";
 }
 
+/// The open question about a world. Republished until evidence with its id answers it, or a QueryResponse.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct WorldQuery {
+    /// stamp of the posterior (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// (`string`)
+    pub id: std::string::String,
+    /// of the posterior it comes from (`uint64`)
+    pub revision: u64,
+    /// (`WorldReference`)
+    pub world: super::msg::WorldReference,
+    /// (`uint8`)
+    pub kind: u8,
+    /// that it is about; where the trajectories begin (`uint32`)
+    pub state: u32,
+    /// none, one or two by kind; the first of two, by lot, is shown on the left (`WorldTrajectory[<=2]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 2>")]
+    pub trajectories: Vec<super::msg::WorldTrajectory>,
+    /// what is asked, and why, in words (`string`)
+    pub reason: std::string::String,
+    /// from the state on the MAP policy loses no more than this under alpha of the rewards that fit (`float64`)
+    pub value_at_risk: f64,
+    /// (`float64`)
+    pub alpha: f64,
+    /// nats: what the answer is expected to tell; NaN where it was not chosen by that (`float64`)
+    pub gain: f64,
+    /// of the person's time (`float64`)
+    pub gain_per_second: f64,
+    /// drawn at random, so that the answer is fair evidence against the model (`bool`)
+    pub held_out: bool,
+    /// how many questions it was chosen from (`uint32`)
+    pub n_candidates: u32,
+    /// on the normalised loss of the robot's policy; NaN without one (`float64`)
+    pub loss_bound: f64,
+    /// the lesson ends below it (`float64`)
+    pub epsilon_loss: f64,
+}
+
+impl WorldQuery {
+    /// what to do in the state; answered by an ActionDemonstration of that state
+    pub const ACTION: u8 = 0;
+    /// what is good and what is bad in the trajectory; answered by a SegmentCritique of it
+    pub const CRITIQUE: u8 = 1;
+    /// which of the two trajectories is better; answered by a TrajectoryPreference of the two
+    pub const COMPARISON: u8 = 2;
+}
+
+impl crate::Message for WorldQuery {
+    const TYPE: &'static str = "apprentice_msgs/msg/WorldQuery";
+}
+
 /// Which TabularWorld; the world itself is on the topics \`world\` and \`lesson_world\`.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WorldReference {
@@ -1327,4 +1380,21 @@ pub struct WorldReference {
 
 impl crate::Message for WorldReference {
     const TYPE: &'static str = "apprentice_msgs/msg/WorldReference";
+}
+
+/// A trajectory of a world that a question shows.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct WorldTrajectory {
+    /// unique within a session; of the FeatureTrajectory that stands for it in an answer (`string`)
+    pub id: std::string::String,
+    /// (`uint32[]`)
+    pub states: Vec<u32>,
+    /// taken in each of the states (`uint32[]`)
+    pub actions: Vec<u32>,
+    /// one per weight, as in FeatureTrajectory (`float64[]`)
+    pub features: Vec<f64>,
+}
+
+impl crate::Message for WorldTrajectory {
+    const TYPE: &'static str = "apprentice_msgs/msg/WorldTrajectory";
 }

@@ -1,6 +1,6 @@
 //! The node that asks: it proposes hypothetical tables, lets `performance_bounds` judge them, and asks about the one with
 //! the largest bound, or another that [`Strategy`] chooses, until even the largest bound is below ε. In a lesson about a world
-//! it says whether the robot is taught.
+//! it asks what to do in a state, what is good in a way, or which of two is better, until the robot's policy loses little.
 
 mod asking;
 mod node;
@@ -8,8 +8,14 @@ mod run;
 mod settings;
 mod words;
 mod world_lesson;
+mod world_question;
+mod world_rests;
+mod world_subjects;
+mod world_words;
+mod worlds;
 
 pub use node::{ActiveQuery, Event, Output};
 pub use run::run;
-pub use settings::{Settings, Strategy};
+pub use settings::{QuestionKind, Settings, Strategy};
 pub use world_lesson::world_lesson;
+pub use world_question::{WorldInputs, world_question};

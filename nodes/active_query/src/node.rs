@@ -1,11 +1,12 @@
 //! The node as a state machine: posteriors and bounds in, candidates, questions and the lesson's state out.
 
-use crate::{Settings, Strategy, asking, words, world_lesson};
+use crate::worlds::Worlds;
+use crate::{Settings, Strategy, asking, words};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
-    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, PolicyBounds, Posterior,
+    Candidates, EvidenceLog, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, PolicyBounds, Posterior,
+    TabularWorld, WorldQuery,
 };
-use apprentice_msgs::to_cdr;
 use exchange::{is_about_a_table, scene_from_message, scene_to_message};
 use inquiry::{Choice, Judged, candidates, choose};
 use scene::{Field, Grid, Rbf, Scene, best_placement};
@@ -23,6 +24,10 @@ pub enum Event {
     Bounds(Box<PerformanceBounds>),
     /// Bounds on policies: in a lesson about a world, what is known of the robot's.
     PolicyBounds(Box<PolicyBounds>),
+    /// A world, perhaps that of the lesson.
+    World(Box<TabularWorld>),
+    /// Everything accepted so far: what was asked about a world before is in it.
+    Evidence(Box<EvidenceLog>),
     /// Time to send the newest outputs again.
     Republish,
 }
@@ -34,6 +39,8 @@ pub enum Output {
     Candidates(Candidates),
     /// The open question.
     Query(Box<PlacementQuery>),
+    /// The open question about a world.
+    WorldQuery(Box<WorldQuery>),
     /// Where the lesson stands.
     Lesson(LessonStatus),
     /// Something a person should know.
@@ -54,14 +61,13 @@ pub struct ActiveQuery {
     round: Option<Round>,
     query: Option<Box<PlacementQuery>>,
     lesson: Option<LessonStatus>,
-    /// The posterior of a lesson about a world, and the newest bounds on policies in it.
-    of_world: (Option<Box<Posterior>>, Option<Box<PolicyBounds>>),
+    worlds: Worlds,
 }
 
 impl ActiveQuery {
     /// A node that has seen nothing.
     pub fn new(settings: Settings) -> Self {
-        Self { settings, round: None, query: None, lesson: None, of_world: (None, None) }
+        Self { settings, round: None, query: None, lesson: None, worlds: Worlds::default() }
     }
 
     /// Takes one event. Outputs depend on the settings and the messages alone, never on `_now`.
@@ -70,7 +76,15 @@ impl ActiveQuery {
             Event::Posterior(posterior) => self.posterior(*posterior),
             Event::Bounds(bounds) => self.bounds(&bounds),
             Event::PolicyBounds(bounds) => {
-                self.of_world.1 = Some(bounds);
+                self.worlds.take_bounds(bounds);
+                self.world()
+            }
+            Event::World(world) => {
+                let told = self.worlds.take_world(&world);
+                told.into_iter().chain(self.world()).collect()
+            }
+            Event::Evidence(log) => {
+                self.worlds.take_log(log);
                 self.world()
             }
             Event::Republish => self.republish(),
@@ -83,7 +97,7 @@ impl ActiveQuery {
         }
         // A lesson that is about no table asks nothing about any.
         if !is_about_a_table(&posterior) {
-            self.of_world.0 = Some(Box::new(posterior));
+            self.worlds.take_posterior(Box::new(posterior));
             return self.world();
         }
         let base = match scene_from_message(&posterior.scene) {
@@ -119,14 +133,13 @@ impl ActiveQuery {
 
     /// Where a lesson about a world stands, when that is news.
     fn world(&mut self) -> Vec<Output> {
-        let (Some(posterior), Some(bounds)) = &self.of_world else { return Vec::new() };
-        let Some(lesson) = world_lesson(&self.settings, posterior, bounds) else { return Vec::new() };
-        let same = |known: &LessonStatus| to_cdr(known) == to_cdr(&lesson);
-        if self.lesson.as_ref().is_some_and(same) {
-            return Vec::new();
+        let outputs = self.worlds.news(&self.settings);
+        for output in &outputs {
+            if let Output::Lesson(lesson) = output {
+                self.lesson = Some(lesson.clone());
+            }
         }
-        self.lesson = Some(lesson.clone());
-        vec![Output::Lesson(lesson)]
+        outputs
     }
 
     fn bounds(&mut self, bounds: &PerformanceBounds) -> Vec<Output> {
@@ -249,6 +262,7 @@ impl ActiveQuery {
             (Some(round), None) => outputs.push(Output::Candidates(round.candidates.clone())),
             (_, Some(lesson)) => {
                 outputs.extend(self.query.clone().map(Output::Query));
+                outputs.extend(self.worlds.open());
                 outputs.push(Output::Lesson(lesson.clone()));
             }
             (None, None) => {}

@@ -1,7 +1,7 @@
 //! The node on the graph.
 
 use crate::{ActiveQuery, Event, Output, Settings};
-use apprentice_msgs::msg::{Candidates, LessonStatus, PlacementQuery};
+use apprentice_msgs::msg::{Candidates, LessonStatus, PlacementQuery, WorldQuery};
 use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
 use std::time::Duration;
 
@@ -11,10 +11,14 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let mut bus = Bus::open(graph, arguments, &settings)?;
     let candidates = bus.publisher::<Candidates>("candidates", Qos::State)?;
     let query = bus.publisher::<PlacementQuery>("query", Qos::State)?;
+    let world_query = bus.publisher::<WorldQuery>("world_query", Qos::State)?;
     let lesson = bus.publisher::<LessonStatus>("lesson", Qos::State)?;
     bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
     bus.subscribe("bounds", Qos::State, |message| Event::Bounds(Box::new(message)))?;
     bus.subscribe("policy_bounds", Qos::State, |message| Event::PolicyBounds(Box::new(message)))?;
+    bus.subscribe("world", Qos::State, |message| Event::World(Box::new(message)))?;
+    bus.subscribe("lesson_world", Qos::State, |message| Event::World(Box::new(message)))?;
+    bus.subscribe("evidence", Qos::State, |message| Event::Evidence(Box::new(message)))?;
     bus.every(Duration::from_secs_f64(settings.republish_period_s), || Event::Republish);
     let mut node = ActiveQuery::new(settings);
     while let Some((now, event)) = bus.next() {
@@ -22,6 +26,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
             match output {
                 Output::Candidates(message) => candidates.publish(&message)?,
                 Output::Query(message) => query.publish(&message)?,
+                Output::WorldQuery(message) => world_query.publish(&message)?,
                 Output::Lesson(message) => {
                     let state = [("state", message.state.to_string()), ("query", message.query_id.clone())];
                     bus.status(Level::Ok, message.reason.clone(), &state);

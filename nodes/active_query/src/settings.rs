@@ -3,17 +3,31 @@
 use bus::{NodeSettings, ParameterSpec, Range};
 use serde::{Deserialize, Serialize};
 
-/// By what a table is chosen among the imagined ones. The lesson ends by the bounds, whatever is asked.
+/// By what a question is chosen: a table among the imagined ones, or what to ask about a world. The lesson ends by the bounds,
+/// whatever is asked.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Strategy {
-    /// The largest bound on the loss (dissertation section 8.2.4).
+    /// The largest bound on the loss (dissertation section 8.2.4); in a world the largest value at risk (eq. 8.2).
     #[default]
     Var,
-    /// The answer that is expected to tell most about the reward.
+    /// The answer that is expected to tell most about the reward; in a world, per second of the person's time, about whether the
+    /// policy loses more than `epsilon_loss`.
     Information,
     /// Any.
     Random,
+}
+
+/// What may be asked about a world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum QuestionKind {
+    /// What to do in a state (dissertation Algorithm 5).
+    Action,
+    /// What is good and what is bad in a way of the MAP policy (Algorithm 6).
+    Critique,
+    /// Which of two ways is better.
+    Comparison,
 }
 
 /// Parameters of `active_query`.
@@ -30,6 +44,12 @@ pub struct Settings {
     pub n_candidates: i64,
     /// By what one of them is chosen.
     pub strategy: Strategy,
+    /// What may be asked about a world; nothing: the lesson takes what it is given.
+    pub question_kinds: Vec<QuestionKind>,
+    /// Steps of the ways that questions about a world show, at most.
+    pub trajectory_steps: i64,
+    /// Share of the questions about a world that are drawn at random, whatever the strategy.
+    pub hold_out_share: f64,
     /// Questions after which the lesson is given up.
     pub max_questions: i64,
     /// How often the pending question and the lesson's state are sent again, seconds.
@@ -44,6 +64,9 @@ impl Default for Settings {
             epsilon_loss: 0.10,
             n_candidates: 50,
             strategy: Strategy::Var,
+            question_kinds: vec![QuestionKind::Action, QuestionKind::Critique, QuestionKind::Comparison],
+            trajectory_steps: 8,
+            hold_out_share: 0.1,
             max_questions: 60,
             republish_period_s: 2.0,
         }
@@ -77,8 +100,23 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "strategy",
-            about: "by what a table is chosen: the largest bound, the most telling answer, or at random",
+            about: "by what a question is chosen: the largest risk, the most telling answer, or at random",
             range: Range::Choice(&["var", "information", "random"]),
+        },
+        ParameterSpec {
+            name: "question_kinds",
+            about: "what may be asked about a world: action, critique, comparison; empty: nothing is asked",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "trajectory_steps",
+            about: "steps of the ways that questions about a world show, at most",
+            range: Range::Integer { min: 2, max: 12 },
+        },
+        ParameterSpec {
+            name: "hold_out_share",
+            about: "share of the questions about a world that are drawn at random, whatever the strategy",
+            range: Range::Float { min: 0.0, max: 0.9 },
         },
         ParameterSpec {
             name: "max_questions",

@@ -37,6 +37,10 @@ impl Ledger {
                 self.first_question.get_or_insert(now);
                 self.follow(now, query.revision);
             }
+            Topic::WorldQuery(query) => {
+                self.first_question.get_or_insert(now);
+                self.follow(now, query.revision);
+            }
             Topic::Lesson(lesson) => {
                 if lesson.state != LessonStatus::ASKING {
                     self.follow(now, lesson.revision);

@@ -57,6 +57,7 @@ impl Story {
             }
             Topic::Plan(plan) => lines.extend(self.plan(plan)),
             Topic::World(world) => lines.extend(self.world.world(world)),
+            Topic::WorldQuery(query) => lines.extend(self.world.query(query)),
             Topic::Policy(policy) => lines.extend(self.world.policy(policy)),
             Topic::Receipt(_) => {}
         }
@@ -182,9 +183,9 @@ fn said(record: &EvidenceRecord) -> String {
         return format!("{}: {words}{reason}  {revision}", who(&response.source));
     }
     let other = None
-        .or(record.actions.first().map(|m| (&m.source, format!("{} actions", m.states.len()))))
+        .or(record.actions.first().map(|m| (&m.source, counted(m.states.len(), "action"))))
         .or(record.preference.first().map(|m| (&m.source, format!("{} trajectories compared", m.trajectories.len()))))
-        .or(record.critique.first().map(|m| (&m.source, format!("{} segments marked", m.segments.len()))))
+        .or(record.critique.first().map(|m| (&m.source, format!("{} marked", counted(m.segments.len(), "segment")))))
         .or(record.history.first().map(|m| (&m.source, format!("{} attempts of a learner", m.demonstrations.len()))));
     if let Some((source, what)) = other {
         return format!("{}: {what}  {revision}", who(source));
@@ -194,6 +195,10 @@ fn said(record: &EvidenceRecord) -> String {
         Some(id) => format!("the lesson is about '{}' too  {revision}", short(id)),
         None => format!("an empty record  {revision}"),
     }
+}
+
+fn counted(n: usize, what: &str) -> String {
+    if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
 }
 
 fn bound_sentence(bounds: &PerformanceBounds, epsilon_m: f64, widest_m: f64) -> String {

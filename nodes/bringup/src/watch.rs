@@ -3,7 +3,7 @@
 use crate::Settings;
 use apprentice_msgs::msg::{
     EvidenceLog, EvidenceReceipt, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, RobustPolicy,
-    TableScene, TabularWorld,
+    TableScene, TabularWorld, WorldQuery,
 };
 use bus::{Arguments, Bus, Graph, NodeError, Qos, Stopper};
 use std::sync::mpsc::{Sender, channel};
@@ -28,6 +28,8 @@ pub enum Topic {
     Plan(Box<PlacementPlan>),
     /// The world.
     World(Box<TabularWorld>),
+    /// The open question about it.
+    WorldQuery(Box<WorldQuery>),
     /// What the robot would do in it.
     Policy(Box<RobustPolicy>),
 }
@@ -93,6 +95,7 @@ fn open(graph: &Graph, arguments: &Arguments, settings: &Settings) -> Result<Bus
     bus.subscribe("lesson", Qos::State, Topic::Lesson)?;
     bus.subscribe("plan", Qos::State, |plan| Topic::Plan(Box::new(plan)))?;
     bus.subscribe("world", Qos::State, |world| Topic::World(Box::new(world)))?;
+    bus.subscribe("world_query", Qos::State, |query| Topic::WorldQuery(Box::new(query)))?;
     bus.subscribe("robust_policy", Qos::State, |policy| Topic::Policy(Box::new(policy)))?;
     Ok(bus)
 }

@@ -2,13 +2,15 @@
 
 use crate::Kind;
 use crate::story::{bar, short};
-use apprentice_msgs::msg::{LessonStatus, RiskBound, RobustPolicy, TabularWorld};
+use apprentice_msgs::msg::{LessonStatus, RiskBound, RobustPolicy, TabularWorld, WorldQuery};
 
 /// Follows a lesson about a world; the same thing said twice is told once.
 #[derive(Debug, Default)]
 pub(crate) struct WorldStory {
     told_world: bool,
     told_lesson: Option<(u64, u8, u64)>,
+    told_query: Option<String>,
+    n_queries: u32,
     over: Option<u64>,
     policy: Option<RobustPolicy>,
     told_policy: Option<(u64, u64)>,
@@ -33,6 +35,16 @@ impl WorldStory {
             features.join(", ")
         );
         Some((Kind::Info("world"), text))
+    }
+
+    /// What is asked.
+    pub fn query(&mut self, query: &WorldQuery) -> Option<(Kind, String)> {
+        if self.told_query.replace(query.id.clone()).as_ref() == Some(&query.id) {
+            return None;
+        }
+        self.n_queries += 1;
+        let asked = query.reason.split_inclusive('?').next().unwrap_or_default();
+        Some((Kind::Question, format!("{:<3} {}", self.n_queries, short(asked))))
     }
 
     /// How much the robot may still lose, and how the lesson ended.

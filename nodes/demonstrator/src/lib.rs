@@ -1,5 +1,5 @@
 //! A simulated person with a hidden reward, who answers every question about where the target belongs, and in a world shows
-//! what to do and which of two ways is better.
+//! what to do and which of two ways is better, and answers what is asked about it.
 //!
 //! An answer is a function of the seed and the question's id alone, so a person who is killed and comes back says the
 //! same again under the same id, and counting once is the receiver's easy job.
@@ -12,6 +12,7 @@ mod settings;
 mod teacher;
 mod teaching;
 mod true_error;
+mod world_answers;
 
 pub use identity::answer_id;
 pub use node::{DemonstratorNode, Event, MAX_PENDING, Output};

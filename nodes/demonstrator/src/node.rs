@@ -6,9 +6,10 @@ use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs;
 use apprentice_msgs::msg::{
     ActionDemonstration, EvidenceReceipt, LessonStatus, PlacementDemonstration, PlacementQuery, QueryResponse,
-    TabularWorld, TrajectoryPreference,
+    SegmentCritique, TabularWorld, TrajectoryPreference, WorldQuery,
 };
 use apprentice_msgs::std_msgs::Header;
+use exchange::MAX_ID;
 
 /// Most answers waiting for a receipt; beyond it the oldest is dropped, which only its asker could have wanted.
 pub const MAX_PENDING: usize = 64;
@@ -18,6 +19,8 @@ pub const MAX_PENDING: usize = 64;
 pub enum Event {
     /// A question, perhaps one seen before.
     Query(Box<PlacementQuery>),
+    /// A question about a world, perhaps one seen before.
+    WorldQuery(Box<WorldQuery>),
     /// What became of a piece of evidence, perhaps somebody else's.
     Receipt(EvidenceReceipt),
     /// A world to teach in.
@@ -39,6 +42,8 @@ pub enum Output {
     Actions(Box<ActionDemonstration>),
     /// Which of two walks is better.
     Preference(Box<TrajectoryPreference>),
+    /// What is good and what is bad in a walk.
+    Critique(Box<SegmentCritique>),
     /// Something for the log.
     Warning(String),
 }
@@ -93,7 +98,14 @@ impl DemonstratorNode {
     pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
         let mut outputs = Vec::new();
         match event {
-            Event::Query(query) => self.hear(&now, *query, &mut outputs),
+            Event::Query(query) => {
+                let id = query.id.clone();
+                self.hear(&now, id, &mut outputs, |node, outputs| Some(node.answer(&now, &query, outputs)));
+            }
+            Event::WorldQuery(query) => {
+                let id = query.id.clone();
+                self.hear(&now, id, &mut outputs, |node, _| node.answer_in_world(&now, &query));
+            }
             Event::Receipt(receipt) => {
                 self.teaching.settle(now.nanoseconds(), &receipt);
                 self.settle(receipt, &mut outputs);
@@ -107,33 +119,49 @@ impl DemonstratorNode {
         outputs
     }
 
-    fn hear(&mut self, now: &Time, query: PlacementQuery, outputs: &mut Vec<Output>) {
-        if query.id.is_empty() {
+    /// Takes a question with an id, and what gives its answer: nothing while it is too early to say.
+    fn hear(
+        &mut self,
+        now: &Time,
+        query_id: String,
+        outputs: &mut Vec<Output>,
+        answer: impl FnOnce(&mut Self, &mut Vec<Output>) -> Option<Result<Output, String>>,
+    ) {
+        if query_id.is_empty() {
             return outputs.push(Output::Warning("ignored a question without an id".to_owned()));
         }
-        if self.settled.contains(&query.id) || self.pending.iter().any(|pending| pending.query_id == query.id) {
+        if self.settled.contains(&query_id) || self.pending.iter().any(|pending| pending.query_id == query_id) {
             return;
         }
-        match self.answer(now, &query, outputs) {
-            Ok(message) => {
+        match answer(self, outputs) {
+            Some(Ok(message)) => {
                 if self.pending.len() == MAX_PENDING {
                     let dropped = self.pending.remove(0);
                     let text = format!("gave up on a receipt for the answer to question '{}'", dropped.query_id);
                     outputs.push(Output::Warning(text));
                 }
                 self.pending.push(Pending {
-                    id: answer_id(&self.source, &query.id, self.seed),
-                    query_id: query.id,
+                    id: answer_id(&self.source, &query_id, self.seed),
+                    query_id,
                     message,
                     due_ns: now.nanoseconds() + self.delay_ns,
                     sent: false,
                 });
             }
-            Err(reason) => {
-                outputs.push(Output::Warning(format!("cannot answer question '{}': {reason}", query.id)));
-                self.remember(query.id);
+            Some(Err(reason)) => {
+                let id: String = query_id.chars().take(MAX_ID).collect();
+                outputs.push(Output::Warning(format!("cannot answer question '{id}': {reason}")));
+                self.remember(query_id);
             }
+            None => {}
         }
+    }
+
+    /// What the person says about a world: nothing before it is known, or while there is still something to show unasked.
+    fn answer_in_world(&mut self, now: &Time, query: &WorldQuery) -> Option<Result<Output, String>> {
+        let teacher = self.teaching.teacher().filter(|_| !self.teaching.is_showing())?;
+        let header = Header { stamp: *now, frame_id: String::new() };
+        Some(teacher.answer(query, header).map_err(|error| error.to_string()))
     }
 
     /// Gives the next piece of evidence about a world, when its time has come.

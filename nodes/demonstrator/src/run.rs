@@ -1,7 +1,7 @@
 //! Wires the node to the graph.
 
 use crate::{DemonstratorNode, Event, Output, Settings};
-use apprentice_msgs::msg::{ActionDemonstration, PlacementDemonstration, TrajectoryPreference};
+use apprentice_msgs::msg::{ActionDemonstration, PlacementDemonstration, SegmentCritique, TrajectoryPreference};
 use bus::{Arguments, Bus, Graph, NodeError, Qos};
 use std::time::Duration;
 
@@ -19,8 +19,10 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let response = bus.publisher("response", Qos::Event)?;
     let actions = bus.publisher::<ActionDemonstration>("action_demonstration", Qos::Event)?;
     let preference = bus.publisher::<TrajectoryPreference>("preference", Qos::Event)?;
+    let critique = bus.publisher::<SegmentCritique>("critique", Qos::Event)?;
     bus.subscribe("receipt", Qos::Event, Event::Receipt)?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
+    bus.subscribe("world_query", Qos::State, |message| Event::WorldQuery(Box::new(message)))?;
     bus.subscribe("world", Qos::State, |message| Event::World(Box::new(message)))?;
     bus.subscribe("lesson", Qos::State, |message| Event::Lesson(Box::new(message)))?;
     bus.every(TICK, || Event::Tick);
@@ -32,6 +34,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Output::Response(message) => response.publish(&message)?,
                 Output::Actions(message) => actions.publish(&message)?,
                 Output::Preference(message) => preference.publish(&message)?,
+                Output::Critique(message) => critique.publish(&*message)?,
                 Output::Warning(text) => log::warn!("{text}"),
             }
         }

@@ -10,7 +10,7 @@ use mdp::{Mdp, MdpError, Policy, Solver, rollout};
 use rand_chacha::ChaCha8Rng;
 
 /// Values this much below the best, as a share of the largest, are as good as the best.
-const TIE: f64 = 1e-9;
+pub(crate) const TIE: f64 = 1e-9;
 
 /// A piece of evidence that nobody asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,11 +34,11 @@ impl Piece {
 /// A person who knows a world and what is good in it.
 #[derive(Debug, Clone)]
 pub struct Teacher {
-    settings: Settings,
-    world: World,
+    pub(crate) settings: Settings,
+    pub(crate) world: World,
     weights: Vec<f64>,
     /// What the person does in each state.
-    hand: Policy,
+    pub(crate) hand: Policy,
 }
 
 impl Teacher {
@@ -109,8 +109,24 @@ impl Teacher {
             let steps = self.walk(&policy, start, self.settings.compare_steps, random)?;
             collected.push(FeatureTrajectory { id: format!("{id}-{name}"), features: self.features(&steps) });
         }
+        let (answer, second_is_better) = self.compares(&collected, random);
+        if !second_is_better {
+            collected.swap(0, 1);
+        }
+        Ok(Piece::Compare(Box::new(TrajectoryPreference {
+            id,
+            source: self.settings.source.clone(),
+            trajectories: collected,
+            answer,
+            confidence: TrajectoryPreference::CONFIDENCE_SURE,
+            ..TrajectoryPreference::default()
+        })))
+    }
+
+    /// How the person answers which of two is better, and which it is, whatever is answered.
+    pub(crate) fn compares(&self, of: &[FeatureTrajectory], random: &mut ChaCha8Rng) -> (u8, bool) {
         let value = |of: &FeatureTrajectory| -> f64 { of.features.iter().zip(&self.weights).map(|(f, w)| f * w).sum() };
-        let (first, second) = (value(&collected[0]), value(&collected[1]));
+        let (first, second) = (value(&of[0]), value(&of[1]));
         let size: f64 = first.abs().max(second.abs());
         let mood = uniform(random);
         let chance = uniform(random);
@@ -129,17 +145,7 @@ impl Teacher {
             // P(second better) = 1 / (1 + exp(−β (second − first))).
             Noise::Boltzmann => chance < 1.0 / (1.0 + scene::exp(-self.settings.beta * (second - first))),
         };
-        if !second_is_better {
-            collected.swap(0, 1);
-        }
-        Ok(Piece::Compare(Box::new(TrajectoryPreference {
-            id,
-            source: self.settings.source.clone(),
-            trajectories: collected,
-            answer,
-            confidence: TrajectoryPreference::CONFIDENCE_SURE,
-            ..TrajectoryPreference::default()
-        })))
+        (answer, second_is_better)
     }
 
     fn start(&self, random: &mut ChaCha8Rng) -> usize {

@@ -36,14 +36,19 @@ impl Teaching {
         }
     }
 
-    /// Whether the person teaches worlds at all.
-    fn teaches(&self) -> bool {
-        self.settings.shows + self.settings.compares > 0
+    /// Whether the person still has something to show unasked; until then questions wait.
+    pub fn is_showing(&self) -> bool {
+        self.open.is_some() || self.teacher.as_ref().is_some_and(|(_, teacher)| self.given < teacher.n_pieces())
+    }
+
+    /// The person in the world that was taken, if any was.
+    pub fn teacher(&self) -> Option<&Teacher> {
+        self.teacher.as_ref().map(|(_, teacher)| teacher)
     }
 
     /// Takes the first world that can be used. A text is what to tell.
     pub fn world(&mut self, message: &TabularWorld) -> Option<String> {
-        if !self.teaches() || self.teacher.is_some() {
+        if self.teacher.is_some() {
             return None;
         }
         let hash = world_hash(message);
@@ -53,7 +58,13 @@ impl Teaching {
         match world_from_message(message) {
             Ok(world) => {
                 let teacher = Teacher::new(&self.settings, world);
-                let unknown = teacher.unknown_features().join(", ");
+                let unknown = teacher.unknown_features();
+                // Who wants nothing of this world has nothing to say about it.
+                if unknown.len() == self.settings.reward_names.len() && teacher.n_pieces() == 0 {
+                    self.refused = Some(hash);
+                    return None;
+                }
+                let unknown = unknown.join(", ");
                 self.teacher = Some((hash, teacher));
                 let text = format!("the person's reward names features that are not in this world: {unknown}");
                 (!unknown.is_empty()).then_some(text)

@@ -1,7 +1,9 @@
 //! Claims about what the simulated person shows in a world, and when.
 
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::msg::{ActionDemonstration, EvidenceReceipt, LessonStatus, TabularWorld, TrajectoryPreference};
+use apprentice_msgs::msg::{
+    ActionDemonstration, EvidenceReceipt, LessonStatus, TabularWorld, TrajectoryPreference, WorldQuery,
+};
 use demonstrator::{DemonstratorNode, Event, Noise, Output, Piece, Settings, Teacher};
 use exchange::{Picture, World, steps_from_message, world_from_message, world_to_message};
 use mdp::Solver;
@@ -158,6 +160,12 @@ fn the_next_piece_is_given_when_the_lesson_has_taken_in_the_last_and_goes_on() {
 fn a_person_who_only_sets_tables_says_nothing_about_worlds() {
     let mut node = DemonstratorNode::new(&Settings::default());
     assert!(node.step(at(1.0), Event::World(Box::new(message()))).is_empty());
+    let query = WorldQuery {
+        id: "q".into(),
+        world: world_from_message(&message()).expect("a good garden").reference(),
+        ..WorldQuery::default()
+    };
+    assert!(node.step(at(2.0), Event::WorldQuery(Box::new(query))).is_empty());
 }
 
 #[test]

@@ -7,6 +7,9 @@ const KINDS = { skip: "Skipped", cant_tell: "Can't tell", stop: "Stopped the les
 const COUNTED = { actions: (n) => `Showed a walk of ${n} steps`, preference: (n) => `Compared ${n} walks`, critique: (n) => `Marked ${n} parts of a walk`, history: (n) => `${n} attempts of a learner` };
 const MARKS = { skip: "↷", cant_tell: "?", stop: "■", placement: "•", actions: "↝", preference: "≷", critique: "✎", history: "↗" };
 
+/** Kinds of answer that can be given once more. */
+export const GIVEN = ["placement", "actions", "preference", "critique", "stop"];
+
 /** Whether an answer counts at the moment and may be taken back. */
 export function canUndo(answer) {
   return (answer.state === "accepted" || answer.state === "pending") && !(answer.undo && answer.undo.state !== "refused");
@@ -50,13 +53,13 @@ function build(answer, on) {
   const words = document.createElement("div");
   words.className = "entry-words";
   const title = document.createElement("strong");
-  title.textContent = answer.kind === "placement" ? `${answer.scene?.target.label ?? "Target"} at ${(answer.x_m * 100).toFixed(1)} × ${(answer.y_m * 100).toFixed(1)} cm` : COUNTED[answer.kind]?.(answer.n) ?? KINDS[answer.kind];
+  title.textContent = on.title?.(answer) ?? (answer.kind === "placement" ? `${answer.scene?.target.label ?? "Target"} at ${(answer.x_m * 100).toFixed(1)} × ${(answer.y_m * 100).toFixed(1)} cm` : COUNTED[answer.kind]?.(answer.n) ?? KINDS[answer.kind]);
   const detail = document.createElement("span");
-  detail.textContent = [answer.kind === "placement" ? CONFIDENCE[answer.confidence] : null, answer.mine ? "you" : answer.source, fate(answer)].filter(Boolean).join(" · ");
+  detail.textContent = [answer.confidence ? CONFIDENCE[answer.confidence] : null, answer.mine ? "you" : answer.source, fate(answer)].filter(Boolean).join(" · ");
   words.append(title, detail);
   item.append(answer.scene ? thumbnail(answer) : mark(answer.kind), words);
   if (canUndo(answer)) item.append(button("Take back", `Take back: ${title.textContent}`, () => on.undo(answer)));
-  else if (answer.kind === "placement" && answer.state === "undone") item.append(button("Give again", `Give again: ${title.textContent}`, () => on.redo(answer)));
+  else if (GIVEN.includes(answer.kind) && answer.state === "undone") item.append(button("Give again", `Give again: ${title.textContent}`, () => on.redo(answer)));
   if (answer.scene) {
     item.addEventListener("pointerenter", () => on.look(answer));
     item.addEventListener("pointerleave", () => on.look(null));

@@ -4,6 +4,7 @@ import { element } from "./drawing.js";
 import { percent } from "./risk.js";
 
 const LEAST = 0.02;
+const sentence = (words) => words[0].toUpperCase() + words.slice(1);
 
 /** An arrow from a little behind a point along a direction, `length` pixels and `width` thick. */
 export function arrow(className, px, py, [dx, dy], length, width = 2.2) {
@@ -13,12 +14,17 @@ export function arrow(className, px, py, [dx, dy], length, width = 2.2) {
   return element("path", { class: className, "stroke-width": width, d: `M${x.toFixed(1)} ${y.toFixed(1)}L${tip.x.toFixed(1)} ${tip.y.toFixed(1)}${wing(1)}${wing(-1)}` });
 }
 
+/** Where the cells of a grid lie in a box: the size of one, and the middle of each state. */
+export function gridFrame(world, box) {
+  const { rows, columns } = world.picture, W = Math.max(200, box.width), H = Math.max(200, box.height), margin = 18;
+  const k = Math.max(8, Math.min((W - 2 * margin) / columns, (H - 2 * margin) / rows)), x0 = (W - k * columns) / 2, y0 = (H - k * rows) / 2;
+  return { W, H, k, x0, y0, middle: (s) => [x0 + ((s % columns) + 0.5) * k, y0 + (Math.floor(s / columns) + 0.5) * k] };
+}
+
 /** Draws the grid into an SVG. `table` holds π(a|s), `visits` how often a state is come to; both may be empty. */
 export function drawGrid(svg, world, table, visits, looked) {
-  const { rows, columns, moves } = world.picture, box = svg.parentElement.getBoundingClientRect();
-  const W = Math.max(200, box.width), H = Math.max(200, box.height), margin = 18;
-  const k = Math.max(8, Math.min((W - 2 * margin) / columns, (H - 2 * margin) / rows));
-  const x0 = (W - k * columns) / 2, y0 = (H - k * rows) / 2, n = world.actions.length;
+  const { rows, columns, moves } = world.picture, { W, H, k, x0, y0 } = gridFrame(world, svg.parentElement.getBoundingClientRect());
+  const n = world.actions.length;
   svg.setAttribute("viewBox", `0 0 ${W} ${H}`);
   const most = Math.max(1e-12, ...visits), pieces = [];
   for (let s = 0; s < rows * columns; s++) {
@@ -61,11 +67,17 @@ function way(world, table) {
   return world.starts.slice(0, 4).map(from).join(" ");
 }
 
+/** Which cell, in words. */
+export function cellPlace(world, s) {
+  const { columns } = world.picture, feature = world.cells[s];
+  return `row ${Math.floor(s / columns) + 1}, column ${(s % columns) + 1}${feature === null ? "" : `, ${world.features[feature]}`}`;
+}
+
 /** What is known of a cell, in words. */
 export function cellWords(world, table, s) {
-  const { columns } = world.picture, n = world.actions.length, feature = world.cells[s];
+  const n = world.actions.length;
   const does = world.terminals.includes(s) ? "it ends here" : table.length ? actionWords(world, table, s, n) : "no policy yet";
-  return `Row ${Math.floor(s / columns) + 1}, column ${(s % columns) + 1}${feature === null ? "" : `, ${world.features[feature]}`}: ${does}`;
+  return `${sentence(cellPlace(world, s))}: ${does}`;
 }
 
 /** "right 80 %, up 20 %". */

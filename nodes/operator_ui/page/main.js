@@ -1,6 +1,6 @@
 // The page: keeps the newest sections of the node's state and what the person is doing, and shows both.
 
-import { canUndo, drawAnswers, fate } from "./answers.js";
+import { GIVEN, canUndo, drawAnswers, fate } from "./answers.js";
 import { cm, isUnreachable, obstruction } from "./geometry.js";
 import { Link, newId } from "./link.js";
 import { colour, range } from "./maps.js";
@@ -10,12 +10,13 @@ import { drawTrend } from "./trend.js";
 import { WorldLesson } from "./world.js";
 
 const $ = (id) => document.getElementById(id);
-const state = { question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [] };
+const state = { question: null, world_question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [] };
 const own = { question: undefined, at: null, revealed: false, heat: false, sent: null, sentFor: null, correcting: false, look: null, problem: "" };
 
 const table = new TableView($("table"), { moved, submitted: submit, hovered });
 const link = new Link({ status, sections, refused, notice });
-const world = new WorldLesson(link, { undo, redo });
+const world = new WorldLesson(link, { undo, redo, changed: () => render() });
+const again = new Set();
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 // ---- what is on the table now -------------------------------------------------------------------------------------
@@ -65,6 +66,7 @@ function status(word) {
 function refused(id, reason) {
   if (id !== null && id === own.sent) Object.assign(own, { sentFor: null });
   own.problem = reason;
+  world.ask.refused(id, reason);
   notice(reason);
   render();
 }
@@ -113,24 +115,35 @@ function respond(kind, reason = "") {
 
 function send(command, query) {
   Object.assign(own, { sent: command.id, problem: "" });
+  world.ask.last = command.id;
   if (query !== undefined) own.sentFor = query;
   link.send(command);
   render();
 }
 
 function undo(answer) { send({ type: "retract", id: newId(), evidence_id: answer.id }); }
-function redo(answer) { send({ type: "again", id: newId(), evidence_id: answer.id }); }
+function redo(answer) {
+  const command = { type: "again", id: newId(), evidence_id: answer.id };
+  again.add(answer.id).add(command.id);
+  send(command);
+}
 const lastActive = () => state.answers.findLast(canUndo);
 const isActive = (answer) => answer.state === "accepted" || answer.state === "pending";
 const sameSpot = (a, b) => a.x_m === b.x_m && a.y_m === b.y_m && a.scene?.id === b.scene?.id;
-const lastUndone = () => state.answers.findLast((a) => a.kind === "placement" && a.state === "undone" && !state.answers.some((b) => isActive(b) && sameSpot(a, b)));
+/** The answer taken back last, unless something else was said since: redo walks the undos back, across questions. */
+function lastUndone() {
+  if (!isAboutWorld()) return state.answers.findLast((a) => a.kind === "placement" && a.state === "undone" && !state.answers.some((b) => isActive(b) && sameSpot(a, b)));
+  const said = Math.max(0, ...state.answers.filter((a) => isActive(a) && !again.has(a.id)).map((a) => a.revision ?? Infinity));
+  const undone = state.answers.filter((a) => GIVEN.includes(a.kind) && a.state === "undone" && !again.has(a.id) && (a.undo?.revision ?? 0) > said);
+  return undone.sort((a, b) => b.undo.revision - a.undo.revision)[0];
+}
 
 $("submit").addEventListener("click", () => (isTeaching() ? submit() : startCorrecting()));
 $("skip").addEventListener("click", () => respond("skip"));
 $("cant-tell").addEventListener("click", () => respond("cant_tell"));
-$("undo").addEventListener("click", () => { const answer = lastActive(); if (answer) undo(answer); });
-$("redo").addEventListener("click", () => { const answer = lastUndone(); if (answer) redo(answer); });
-$("stop").addEventListener("click", () => { $("stop-dialog").returnValue = ""; $("stop-dialog").showModal(); });
+for (const id of ["undo", "ask-undo"]) $(id).addEventListener("click", () => { const answer = lastActive(); if (answer) undo(answer); });
+for (const id of ["redo", "ask-redo"]) $(id).addEventListener("click", () => { const answer = lastUndone(); if (answer) redo(answer); });
+for (const id of ["stop", "ask-stop"]) $(id).addEventListener("click", () => { $("stop-dialog").returnValue = ""; $("stop-dialog").showModal(); });
 $("stop-dialog").addEventListener("close", () => { if ($("stop-dialog").returnValue === "stop") respond("stop", $("stop-reason").value); $("stop-reason").value = ""; });
 $("heat").addEventListener("change", () => { own.heat = $("heat").checked; render(); });
 $("log-scale").addEventListener("change", renderProgress);
@@ -163,6 +176,7 @@ function render() {
   $("lesson-world").hidden = !aboutWorld;
   renderLesson();
   if (aboutWorld) world.render(state);
+  for (const [id, is] of [["ask-undo", lastActive()], ["ask-redo", lastUndone()], ["ask-stop", !["waiting", "stopped"].includes(lessonState())]]) $(id).disabled = !is;
   renderTable();
   renderAnswer();
   renderProgress();
@@ -195,7 +209,7 @@ function renderLesson() {
   const here = asking ? question.bound_m : null;
   text("question-bound", cm(here), here);
   $("here").hidden = here === null;
-  document.title = `${asking ? "A question" : STATES[word]} · apprentice`;
+  document.title = `${asking || state.world_question?.open ? "A question" : STATES[word]} · apprentice`;
   const full = Math.max(bound ?? 0, (epsilon ?? 0.1) * 2) * 1.05;
   $("gauge-fill").style.width = `${bound === null ? 100 : Math.min(100, (100 * bound) / full)}%`;
   $("gauge").dataset.state = bound === null ? "none" : epsilon !== null && bound < epsilon ? "below" : "above";

@@ -16,19 +16,26 @@ function laneNames(lanes) {
   return ["left roadside", ...(named ?? Array.from({ length: road }, (_, i) => `lane ${i + 1}`)), "right roadside"];
 }
 
-/** Draws the road into an SVG. `table` holds π(a|s); `touching` the feature whose cells are collisions. */
-export function drawRoad(svg, world, table, visits, looked) {
-  const { lanes, places, moves } = world.picture, box = svg.parentElement.getBoundingClientRect(), panels = lanes - 2, n = world.actions.length;
-  const W = Math.max(200, box.width), H = Math.max(200, box.height), wide = W > 560;
+/** Where the cells of a road lie in a box: one panel a lane of the traffic, side by side where there is room. */
+export function roadFrame(world, box) {
+  const { lanes, places } = world.picture, panels = lanes - 2, W = Math.max(200, box.width), H = Math.max(200, box.height), wide = W > 560;
   const across = wide ? panels : 1, down = wide ? 1 : panels, top = 30, gap = 20, side = 14;
   const k = Math.max(9, Math.min((W - 2 * side - gap * (across - 1)) / (across * lanes), 62));
-  const kh = Math.max(9, Math.min((H - 16 - down * (top + gap)) / (down * places), 1.8 * k));
-  const panel = { w: k * lanes, h: kh * places };
-  const left = (W - across * panel.w - gap * (across - 1)) / 2, upper = Math.max(2, (H - down * (panel.h + top) - gap * (down - 1)) / 2);
+  const kh = Math.max(9, Math.min((H - 16 - down * (top + gap)) / (down * places), 1.8 * k)), w = k * lanes, h = kh * places;
+  const left = (W - across * w - gap * (across - 1)) / 2, upper = Math.max(2, (H - down * (h + top) - gap * (down - 1)) / 2);
+  const corner = (t) => [left + (wide ? t * (w + gap) : 0), upper + top + (wide ? 0 : t * (h + top + gap))];
+  const middle = (s) => { const [x, y] = corner(Math.floor(s / places) % panels); return [x + (Math.floor(s / (places * panels)) + 0.5) * k, y + ((s % places) + 0.5) * kh]; };
+  return { W, H, k, kh, w, h, corner, middle, panel: (s) => Math.floor(s / places) % panels };
+}
+
+/** Draws the road into an SVG. `table` holds π(a|s); `touching` the feature whose cells are collisions. */
+export function drawRoad(svg, world, table, visits, looked) {
+  const { lanes, places, moves } = world.picture, panels = lanes - 2, n = world.actions.length;
+  const { W, H, k, kh, w, h, corner } = roadFrame(world, svg.parentElement.getBoundingClientRect()), panel = { w, h };
   svg.setAttribute("viewBox", `0 0 ${W} ${H}`);
   const most = Math.max(1e-12, ...visits), names = laneNames(lanes), pieces = [];
   for (let t = 0; t < panels; t++) {
-    const x0 = left + (wide ? t * (panel.w + gap) : 0), y0 = upper + top + (wide ? 0 : t * (panel.h + top + gap));
+    const [x0, y0] = corner(t);
     pieces.push(element("text", { class: "road-title", x: x0 + panel.w / 2, y: y0 - 11, "text-anchor": "middle" }, `traffic in the ${names[t + 1]}`));
     for (let lane = 0; lane < lanes; lane++) pieces.push(element("rect", { class: lane === 0 || lane === lanes - 1 ? "verge" : "asphalt", x: x0 + lane * k, y: y0, width: k, height: panel.h }));
     for (let lane = 2; lane < lanes - 1; lane++) pieces.push(element("path", { class: "lane-mark", d: `M${(x0 + lane * k).toFixed(1)} ${y0.toFixed(1)}v${panel.h.toFixed(1)}` }));
@@ -52,10 +59,16 @@ export function drawRoad(svg, world, table, visits, looked) {
   svg.setAttribute("aria-label", `A road of ${panels} lanes with the roadside left and right. Each panel is for traffic in one lane. ${table.length ? `At the start: ${world.starts.map((s) => `${roadWords(world, table, s)}`).join("; ")}.` : "There is no policy yet."}`);
 }
 
-/** What is known of a state, in words. */
-export function roadWords(world, table, s) {
-  const { lanes, places } = world.picture, n = world.actions.length, names = laneNames(lanes);
+/** Which state, in words. */
+export function roadPlace(world, s) {
+  const { lanes, places } = world.picture, names = laneNames(lanes);
   const place = s % places, traffic = Math.floor(s / places) % (lanes - 2), lane = Math.floor(s / (places * (lanes - 2)));
   const where = place === 0 ? "far ahead" : place === places - 1 ? "behind" : `${place} of ${places - 1} closer`;
-  return `In the ${names[lane]}, traffic ${where} in the ${names[traffic + 1]}: ${table.length ? actionWords(world, table, s, n) : "no policy yet"}`;
+  return `in the ${names[lane]}, traffic ${where} in the ${names[traffic + 1]}`;
+}
+
+/** What is known of a state, in words. */
+export function roadWords(world, table, s) {
+  const words = roadPlace(world, s);
+  return `${words[0].toUpperCase()}${words.slice(1)}: ${table.length ? actionWords(world, table, s, world.actions.length) : "no policy yet"}`;
 }

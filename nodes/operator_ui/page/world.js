@@ -1,6 +1,7 @@
 // A lesson about a world: what the robot would do, what it may cost, and how cautious it is to be.
 
 import { drawAnswers } from "./answers.js";
+import { Ask } from "./ask.js";
 import { drawFrontier, isFlat } from "./frontier.js";
 import { cellWords, drawGrid } from "./grid.js";
 import { newId } from "./link.js";
@@ -9,6 +10,7 @@ import { asARule, number, percent, worstCase } from "./risk.js";
 import { ROAD_KEY, drawRoad, roadWords } from "./road.js";
 import { drawTrend } from "./trend.js";
 import { drawWeights } from "./weights.js";
+import { WORDS, placeWords } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
@@ -21,10 +23,11 @@ function text(id, words, value) {
 }
 
 export class WorldLesson {
-  /** `link` sends commands; `on` has undo(answer) and redo(answer). */
+  /** `link` sends commands; `on` has undo(answer), redo(answer) and changed(), which draws everything anew. */
   constructor(link, on) {
     this.link = link;
     this.on = on;
+    this.ask = new Ask(link, on.changed);
     /** λ under the slider while the person looks at another balance; null: the robot's own. */
     this.wish = null;
     this.sent = null;
@@ -35,12 +38,15 @@ export class WorldLesson {
     $("lambda").addEventListener("keydown", (event) => { if (event.key === "Enter" && !$("caution-apply").disabled) this.apply(); });
     $("world").addEventListener("pointermove", (event) => this.look(event.target.closest("[data-state]")));
     $("world").addEventListener("pointerleave", () => this.look(null));
+    $("world").addEventListener("click", (event) => this.ask.pick(event.target));
+    $("show-policy").addEventListener("change", () => this.draw());
     const again = new ResizeObserver(() => { if (this.state && !$("lesson-world").hidden) this.render(this.state); });
     for (const id of ["world-stage", "frontier-plot", "loss-plot"]) again.observe($(id));
   }
 
   /** Forgets a wish that the robot follows by now. */
   settle(state) {
+    this.ask.settle(state);
     if (state.caution?.taken) this.link.drop(state.caution.id);
     if (state.policy?.preference_id) this.link.drop(state.policy.preference_id);
     const followed = this.sent && (state.policy?.preference_id === this.sent.id || (state.caution?.id === this.sent.id && state.caution.taken));
@@ -85,13 +91,15 @@ export class WorldLesson {
     this.state = state;
     const collisions = state.world.features.indexOf("collision");
     if (!state.world.collision) state.world.collision = state.world.picture.kind === "road" ? state.world.cells.map((f, s) => (f === collisions ? s : -1)).filter((s) => s >= 0) : [];
-    $("skip-link").href = "#lambda";
-    text("skip-link", "Go to how cautious the robot is");
+    const asking = this.ask.isShown();
+    $("skip-link").href = asking ? "#ask" : "#lambda";
+    text("skip-link", asking ? "Go to your answer" : "Go to how cautious the robot is");
+    this.ask.render();
     this.renderLesson();
     this.renderPolicy();
     this.renderProgress();
     drawWeights($("weights"), state.weights);
-    drawAnswers($("world-answers"), state.answers, { ...this.on, look: () => {} });
+    drawAnswers($("world-answers"), state.answers, { ...this.on, look: () => {}, title: (answer) => WORDS.answer(state.world, answer) });
     const active = state.answers.filter((a) => a.state === "accepted").length;
     text("world-count", state.answers.length ? `${active} in force of ${state.answers.length}` : "");
     $("world-no-answers").hidden = state.answers.length > 0;
@@ -100,8 +108,13 @@ export class WorldLesson {
 
   renderLesson() {
     const { lesson, world, policy } = this.state;
-    text("world-name", world.id);
-    text("world-title", TITLES[lesson?.state] ?? "One moment…");
+    const question = this.state.world_question, asking = this.ask.isShown();
+    const [, asked, why] = asking ? question.reason.match(/^([^?]{1,200}\?)\s+(.+)$/s) ?? [] : [];
+    text("world-kicker", asking ? WORDS.number(lesson?.questions_asked) : WORDS.lesson);
+    text("world-name", asking ? question.id : world.id);
+    text("world-title", asked ?? TITLES[lesson?.state] ?? "One moment…");
+    text("world-why", why ?? "");
+    text("answers-left", lesson?.state === "asking" ? this.left() : "");
     const bound = lesson?.loss_bound ?? null, goal = lesson?.epsilon_loss ?? null;
     text("loss-bound", bound === null ? (lesson ? "no bound yet" : "–") : percent(bound), bound);
     $("loss-bound").dataset.revision = lesson?.revision ?? "";
@@ -111,8 +124,20 @@ export class WorldLesson {
     $("loss-gauge").dataset.state = bound === null ? "none" : goal !== null && bound < goal ? "below" : "above";
     $("loss-mark").style.left = `${(100 * (goal ?? 0)) / full}%`;
     $("loss-gauge").setAttribute("aria-label", `Of what choosing at random loses, the robot may lose ${bound === null ? "an unknown share" : percent(bound)}; the goal is ${percent(goal)}`);
-    $("world-veil").hidden = Boolean(policy);
-    text("world-veil-text", "Thinking about what to do…");
+    const thinking = asking && !question.open && lesson?.state === "asking";
+    $("world-veil").hidden = Boolean(policy) && !thinking;
+    text("world-veil-text", thinking ? WORDS.thinking : "Thinking about what to do…");
+  }
+
+  /** How many more answers it may take: the bound's fall so far, as a straight line of its logarithm, drawn on to the goal. */
+  left() {
+    const { loss_trend: trend, lesson } = this.state, known = trend.filter((p) => p.bound > 0), given = lesson.demonstrations;
+    if (known.length < 4 || !lesson.epsilon_loss) return WORDS.range(given || null, null);
+    const recent = known.slice(-16), x = recent.map((p) => p.revision), y = recent.map((p) => Math.log(p.bound));
+    const mean = (v) => v.reduce((a, b) => a + b, 0) / v.length, mx = mean(x), my = mean(y);
+    const slope = x.reduce((sum, v, i) => sum + (v - mx) * (y[i] - my), 0) / Math.max(1e-9, x.reduce((sum, v) => sum + (v - mx) ** 2, 0));
+    const now = my + slope * (x[x.length - 1] - mx), most = slope < -1e-4 ? (now - Math.log(lesson.epsilon_loss)) / -slope : Infinity;
+    return WORDS.range(given, Math.max(1, most));
   }
 
   renderPolicy() {
@@ -120,6 +145,7 @@ export class WorldLesson {
     const has = policy && policy.expected_return !== null, mine = has ? policy : null;
     text("world-risk", !policy ? "The robot has not decided what to do." : has ? `${worstCase(policy, policy.objective, policy.alpha)} ${asARule(policy, policy.objective, policy.alpha)}` : sentence(policy.reason), policy?.conditional_value_at_risk ?? null);
     $("world-risk").dataset.revision = policy?.revision ?? "";
+    $("world-risk").hidden = this.ask.isShown();
     this.draw();
     const slider = $("lambda"), n = frontier?.points.length ?? 0;
     slider.disabled = !has;
@@ -188,12 +214,15 @@ export class WorldLesson {
   }
 
   draw() {
-    const { world } = this.state, { table, visits } = this.table(), svg = $("world");
+    const { world } = this.state, quiet = this.ask.hidesPolicy(), { table, visits } = quiet ? { table: [], visits: [] } : this.table(), svg = $("world");
     svg.classList.toggle("preview", this.preview() !== null);
     svg.parentElement.style.setProperty("--stage", `${Math.round(this.height(svg.parentElement.clientWidth))}px`);
     if (world.picture.kind === "cells") drawGrid(svg, world, table, visits, this.looked);
     else if (world.picture.kind === "road") drawRoad(svg, world, table, visits, this.looked);
     else svg.replaceChildren();
+    this.ask.draw();
+    const question = this.ask.isShown() && this.state.world_question.open ? this.state.world_question : null;
+    if (question) svg.setAttribute("aria-label", `${WORDS.picture[question.kind](world, question)} ${quiet ? "" : svg.getAttribute("aria-label") ?? ""}`);
     this.renderLegend();
     this.renderReadout();
   }
@@ -220,9 +249,10 @@ export class WorldLesson {
 
   renderReadout() {
     if (!this.state) return;
-    const { world } = this.state, { table } = this.table(), s = this.looked;
+    const { world } = this.state, quiet = this.ask.hidesPolicy(), { table } = quiet ? { table: [] } : this.table(), s = this.looked;
     if (world.picture.kind === "none") return text("world-readout", `${world.n_states} states of ${world.actions.length} actions: too many to draw, or in no order that can be drawn.`);
-    if (s === null || s >= world.n_states) return text("world-readout", this.preview() !== null ? "A preview: the robot does not do this yet." : world.picture.kind === "road" ? ROAD_KEY : "Arrows: what the robot does; thick where it often comes. Dashed rings: where it starts.");
+    if (s === null || s >= world.n_states) return text("world-readout", quiet ? WORDS.hidden : this.preview() !== null ? "A preview: the robot does not do this yet." : world.picture.kind === "road" ? ROAD_KEY : "Arrows: what the robot does; thick where it often comes. Dashed rings: where it starts.");
+    if (quiet) return text("world-readout", `${sentence(placeWords(world, s))}.`);
     text("world-readout", world.picture.kind === "cells" ? cellWords(world, table, s) : roadWords(world, table, s));
   }
 }

@@ -3,11 +3,9 @@
 //! What a page said is published again each second until its receipt, or the evidence log, names it. The evidence log
 //! is the truth: it overrides anything a receipt said, and it may begin anew with another session.
 
-use crate::protocol::{AnswerView, Confidence, Fate, Kind, MAX_ANSWERS, UndoView};
-use crate::view::{finite, scene_view};
-use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceReceipt, EvidenceRecord, PlacementDemonstration, QueryResponse, Retraction, TableScene,
-};
+use crate::evidence::{Evidence, history_view};
+use crate::protocol::{AnswerView, Fate, Kind, MAX_ANSWERS, UndoView};
+use apprentice_msgs::msg::{EvidenceLog, EvidenceReceipt, EvidenceRecord, Retraction};
 use bus::Time;
 use exchange::record_id;
 
@@ -16,29 +14,11 @@ const REPUBLISH_NS: i128 = 990_000_000;
 /// More than this many unacknowledged messages are not kept.
 const MAX_WAITING: usize = 256;
 
-/// Something for the posterior.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Evidence {
-    Demonstration(Box<PlacementDemonstration>),
-    Retraction(Box<Retraction>),
-    Response(Box<QueryResponse>),
-}
-
-impl Evidence {
-    fn id(&self) -> &str {
-        match self {
-            Self::Demonstration(message) => &message.id,
-            Self::Retraction(message) => &message.id,
-            Self::Response(message) => &message.id,
-        }
-    }
-}
-
 /// An answer with what is needed to give it again.
 #[derive(Debug, Clone)]
 struct Entry {
     view: AnswerView,
-    scene: Option<TableScene>,
+    given: Option<Evidence>,
     /// Highest revision known when it appeared: its place in the list while it has none of its own.
     after: u64,
 }
@@ -78,13 +58,12 @@ impl Answers {
         if self.waiting.len() >= MAX_WAITING {
             return Err(format!("{MAX_WAITING} answers are waiting to be taken in; is reward_posterior running?"));
         }
-        let (mut view, scene) = match &evidence {
-            Evidence::Demonstration(message) => (placement(message), Some(message.scene.clone())),
-            Evidence::Response(message) => (response(message), None),
-            Evidence::Retraction(message) => return self.retract(message.clone()),
-        };
+        if let Evidence::Retraction(message) = &evidence {
+            return self.retract(message.clone());
+        }
+        let Some(mut view) = evidence.view() else { return Ok(()) };
         view.mine = true;
-        self.entries.push(Entry { view, scene, after: self.revision() });
+        self.entries.push(Entry { view, given: Some(evidence.clone()), after: self.revision() });
         self.waiting.push(Waiting { evidence, held_for: None, sent: None });
         Ok(())
     }
@@ -109,15 +88,21 @@ impl Answers {
         Ok(())
     }
 
-    /// The scene, place and confidence of a placement that was taken back.
-    pub fn undone_placement(&self, id: &str) -> Result<(AnswerView, TableScene), String> {
+    /// What was taken back, to be given once more.
+    pub fn undone(&self, id: &str) -> Result<&Evidence, String> {
         let Some(entry) = self.entries.iter().find(|entry| entry.view.id == id) else {
             return Err("the answer that is to be given again is not known".into());
         };
-        match (&entry.scene, entry.view.state) {
-            (Some(scene), Fate::Undone) => Ok((entry.view.clone(), scene.clone())),
-            (None, _) => Err("only placements can be given again".into()),
-            (Some(_), _) => Err("the answer has not been taken back, so it needs no giving again".into()),
+        match &entry.given {
+            _ if entry.view.state != Fate::Undone => {
+                Err("the answer has not been taken back, so it needs no giving again".into())
+            }
+            // Skipping says nothing; what was skipped may be asked again as it is.
+            Some(Evidence::Response(_)) | None if entry.view.kind != Kind::Stop => {
+                Err("only what was shown, marked or compared can be given again".into())
+            }
+            Some(given) => Ok(given),
+            None => Err("the answer that is to be given again was not kept".into()),
         }
     }
 
@@ -209,12 +194,11 @@ impl Answers {
 
     fn record(&mut self, record: &EvidenceRecord) {
         self.waiting.retain(|waiting| waiting.evidence.id() != record_id(record));
-        if let Some(message) = record.demonstration.first() {
-            self.accepted(placement(message), Some(&message.scene), record.sequence);
-        } else if let Some(message) = record.response.first() {
-            self.accepted(response(message), None, record.sequence);
-        } else if let Some(view) = other(record) {
-            self.accepted(view, None, record.sequence);
+        if let Some(evidence) = Evidence::of_record(record) {
+            let view = evidence.view();
+            self.accepted(view, Some(evidence), record.sequence);
+        } else if let Some(message) = record.history.first() {
+            self.accepted(history_view(message), None, record.sequence);
         } else if let Some(message) = record.retraction.first() {
             let entry = self.entries.iter_mut().find(|entry| entry.view.id == message.evidence_id);
             if let Some(entry) = entry {
@@ -229,9 +213,10 @@ impl Answers {
         }
     }
 
-    fn accepted(&mut self, view: AnswerView, scene: Option<&TableScene>, sequence: u64) {
+    fn accepted(&mut self, view: Option<AnswerView>, given: Option<Evidence>, sequence: u64) {
+        let Some(view) = view else { return };
         let index = self.entries.iter().position(|entry| entry.view.id == view.id).unwrap_or_else(|| {
-            self.entries.push(Entry { view, scene: scene.cloned(), after: sequence });
+            self.entries.push(Entry { view, given, after: sequence });
             self.entries.len() - 1
         });
         self.accept(index, sequence);
@@ -253,77 +238,5 @@ impl Answers {
 impl Entry {
     fn undo_id(&self) -> Option<&str> {
         self.view.undo.as_ref().map(|undo| undo.id.as_str())
-    }
-}
-
-fn placement(message: &PlacementDemonstration) -> AnswerView {
-    AnswerView {
-        id: message.id.clone(),
-        kind: Kind::Placement,
-        query_id: message.query_id.clone(),
-        source: message.source.clone(),
-        mine: false,
-        scene: scene_view(&message.scene).ok(),
-        x_m: finite(message.placement.x),
-        y_m: finite(message.placement.y),
-        confidence: Some(match message.confidence {
-            PlacementDemonstration::CONFIDENCE_SURE => Confidence::Sure,
-            PlacementDemonstration::CONFIDENCE_FAIRLY => Confidence::Fairly,
-            _ => Confidence::Guess,
-        }),
-        n: None,
-        state: Fate::Pending,
-        revision: None,
-        reason: String::new(),
-        undo: None,
-    }
-}
-
-/// Evidence about a world or about trajectories, whoever gave it.
-fn other(record: &EvidenceRecord) -> Option<AnswerView> {
-    let none = String::new();
-    let (kind, id, query_id, source, n) = None
-        .or(record.actions.first().map(|m| (Kind::Actions, &m.id, &none, &m.source, m.states.len())))
-        .or(record.preference.first().map(|m| (Kind::Preference, &m.id, &m.query_id, &m.source, m.trajectories.len())))
-        .or(record.critique.first().map(|m| (Kind::Critique, &m.id, &m.query_id, &m.source, m.segments.len())))
-        .or(record.history.first().map(|m| (Kind::History, &m.id, &none, &m.source, m.demonstrations.len())))?;
-    Some(AnswerView {
-        id: id.clone(),
-        kind,
-        query_id: query_id.clone(),
-        source: source.clone(),
-        mine: false,
-        scene: None,
-        x_m: None,
-        y_m: None,
-        confidence: None,
-        n: u32::try_from(n).ok(),
-        state: Fate::Pending,
-        revision: None,
-        reason: String::new(),
-        undo: None,
-    })
-}
-
-fn response(message: &QueryResponse) -> AnswerView {
-    AnswerView {
-        id: message.id.clone(),
-        kind: match message.kind {
-            QueryResponse::SKIP => Kind::Skip,
-            QueryResponse::CANT_TELL => Kind::CantTell,
-            _ => Kind::Stop,
-        },
-        query_id: message.query_id.clone(),
-        source: message.source.clone(),
-        mine: false,
-        scene: None,
-        x_m: None,
-        y_m: None,
-        confidence: None,
-        n: None,
-        state: Fate::Pending,
-        revision: None,
-        reason: String::new(),
-        undo: None,
     }
 }

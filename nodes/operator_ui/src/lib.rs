@@ -7,6 +7,7 @@
 mod access;
 mod answers;
 mod assets;
+mod evidence;
 mod hub;
 mod markers;
 mod node;
@@ -20,6 +21,7 @@ mod socket;
 mod tabular;
 mod tabular_view;
 mod view;
+mod world_answers;
 
 pub use access::{Access, AccessError};
 pub use hub::{Hub, PageId};

@@ -1,6 +1,7 @@
 //! The node as a state machine between the topics and the pages.
 
-use crate::answers::{Answers, Evidence};
+use crate::answers::Answers;
+use crate::evidence::Evidence;
 use crate::hub::PageId;
 use crate::markers::markers;
 use crate::presence::Presence;
@@ -15,9 +16,10 @@ use crate::view::{
     bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point,
 };
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceReceipt, Heartbeat, LessonStatus, PerformanceBounds, PlacementDemonstration, PlacementPlan,
-    PlacementQuery, PolicyBounds, PolicyFrontier, Posterior, QueryResponse, Retraction, RiskPreference, RobustPolicy,
-    TableScene, TabularWorld,
+    ActionDemonstration, EvidenceLog, EvidenceReceipt, Heartbeat, LessonStatus, PerformanceBounds,
+    PlacementDemonstration, PlacementPlan, PlacementQuery, PolicyBounds, PolicyFrontier, Posterior, QueryResponse,
+    Retraction, RiskPreference, RobustPolicy, SegmentCritique, TableScene, TabularWorld, TrajectoryPreference,
+    WorldQuery,
 };
 use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::Time;
@@ -50,6 +52,8 @@ pub enum Event {
     Evidence(Box<EvidenceLog>),
     /// The world of a lesson that is about one.
     World(Box<TabularWorld>),
+    /// The open question about it.
+    WorldQuery(Box<WorldQuery>),
     /// What the robot would do in it.
     Policy(Box<RobustPolicy>),
     /// What every caution buys.
@@ -81,6 +85,12 @@ pub enum Output {
     /// Publish, now and again until there is a receipt.
     Demonstration(Box<PlacementDemonstration>),
     /// Publish, now and again until there is a receipt.
+    Actions(Box<ActionDemonstration>),
+    /// Publish, now and again until there is a receipt.
+    Critique(Box<SegmentCritique>),
+    /// Publish, now and again until there is a receipt.
+    Comparison(Box<TrajectoryPreference>),
+    /// Publish, now and again until there is a receipt.
     Retraction(Box<Retraction>),
     /// Publish, now and again until there is a receipt.
     Response(Box<QueryResponse>),
@@ -99,6 +109,7 @@ pub enum Output {
 struct Changed {
     scene: bool,
     question: bool,
+    world_question: bool,
     guess: bool,
     plan: bool,
     lesson: bool,
@@ -113,6 +124,7 @@ impl Changed {
     const ALL: Self = Self {
         scene: true,
         question: true,
+        world_question: true,
         guess: true,
         plan: true,
         lesson: true,
@@ -170,7 +182,7 @@ impl OperatorUi {
     pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
         let mut out = Vec::new();
         let mut changed = Changed::default();
-        let was_open = self.context().is_open();
+        let was_open = (self.context().is_open(), self.context().is_world_open());
         match event {
             Event::Scene(message) => changed.scene = self.take_scene(*message, &mut out),
             Event::Query(message) => changed.question = self.take_query(*message, &mut out),
@@ -186,6 +198,10 @@ impl OperatorUi {
             }
             Event::World(message) => match self.tabular.take_world(&message) {
                 Ok(news) => changed.tabular |= news,
+                Err(text) => self.warn(text, &mut out),
+            },
+            Event::WorldQuery(message) => match self.tabular.take_query(message) {
+                Ok(news) => changed.world_question = news,
                 Err(text) => self.warn(text, &mut out),
             },
             Event::Policy(message) => match self.tabular.take_policy(&message) {
@@ -225,9 +241,13 @@ impl OperatorUi {
         let nodes = self.presence.view(&now);
         changed.nodes = nodes != self.nodes;
         self.nodes = nodes;
-        changed.question |= was_open != self.context().is_open();
+        changed.question |= was_open.0 != self.context().is_open();
+        changed.world_question |= was_open.1 != self.context().is_world_open();
         out.extend(self.answers.due(&now).into_iter().map(|evidence| match evidence {
             Evidence::Demonstration(message) => Output::Demonstration(message),
+            Evidence::Actions(message) => Output::Actions(message),
+            Evidence::Critique(message) => Output::Critique(message),
+            Evidence::Comparison(message) => Output::Comparison(message),
             Evidence::Retraction(message) => Output::Retraction(message),
             Evidence::Response(message) => Output::Response(message),
         }));
@@ -247,6 +267,7 @@ impl OperatorUi {
             source: &self.settings.source,
             scene: self.scene.as_ref().map(|(message, _)| message),
             query: self.query.as_ref().map(|(message, _)| message),
+            world_query: self.tabular.query(),
             lesson: self.lesson.as_ref(),
             answers: &self.answers,
         }
@@ -349,6 +370,7 @@ impl OperatorUi {
         let mut sections = Box::new(Sections {
             scene: changed.scene.then(|| self.scene.as_ref().map(|(_, view)| view.clone())),
             question: changed.question.then(question),
+            world_question: changed.world_question.then(|| self.tabular.question(self.context().is_world_open())),
             guess: changed.guess.then(|| self.guess.clone()),
             plan: changed.plan.then(|| self.plan.clone()),
             lesson: changed.lesson.then(lesson),

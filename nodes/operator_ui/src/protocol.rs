@@ -13,8 +13,8 @@ pub use shown::{
     SpotView, TrendPoint, UndoView,
 };
 pub use world::{
-    BoundView, CautionView, FrontierView, LossPoint, PictureView, PointView, PolicyView, RobustBoundsView, WeightView,
-    WorldView,
+    BoundView, CautionView, FrontierView, LossPoint, PictureView, PointView, PolicyView, RobustBoundsView, WayView,
+    WeightView, WorldQuestionView, WorldView,
 };
 
 use serde::{Deserialize, Serialize};
@@ -86,6 +86,9 @@ pub struct Sections {
     /// The world that the lesson is about.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub world: Option<Option<WorldView>>,
+    /// The newest question about it, open or not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub world_question: Option<Option<WorldQuestionView>>,
     /// What the robot would do in it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub policy: Option<Option<PolicyView>>,
@@ -160,7 +163,40 @@ pub enum FromPage {
         /// How sure the person is.
         confidence: Confidence,
     },
-    /// An answer that is no placement.
+    /// This is what to do in the state of the open question.
+    Act {
+        /// Of the answer.
+        id: String,
+        /// The open question.
+        query_id: String,
+        /// Counted from 0.
+        action: u32,
+        /// How sure the person is.
+        confidence: Confidence,
+    },
+    /// These parts of the way of the open question are good or bad.
+    Mark {
+        /// Of the answer.
+        id: String,
+        /// The open question.
+        query_id: String,
+        /// One or more, none overlapping another.
+        segments: Vec<Segment>,
+        /// How sure the person is.
+        confidence: Confidence,
+    },
+    /// Which of the two ways of the open question is better.
+    Compare {
+        /// Of the answer.
+        id: String,
+        /// The open question.
+        query_id: String,
+        /// What is said.
+        better: Better,
+        /// How sure the person is.
+        confidence: Confidence,
+    },
+    /// An answer that is none of these.
     Respond {
         /// Of the answer.
         id: String,
@@ -179,7 +215,7 @@ pub enum FromPage {
         /// What is taken back.
         evidence_id: String,
     },
-    /// Gives a placement that was taken back once more.
+    /// Gives what was taken back once more.
     Again {
         /// Of the new answer.
         id: String,
@@ -193,4 +229,30 @@ pub enum FromPage {
         /// From 0, only the worst case counts, to 1, only the mean counts.
         lambda: f64,
     },
+}
+
+/// Steps that a person marked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Segment {
+    /// First step, counted from 0.
+    pub start: u32,
+    /// The step after the last.
+    pub end: u32,
+    /// Whether that is how it should be done.
+    pub good: bool,
+}
+
+/// Which of two ways.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Better {
+    /// The first, shown on the left.
+    First,
+    /// The second.
+    Second,
+    /// Neither.
+    Equal,
+    /// No opinion.
+    CantTell,
 }

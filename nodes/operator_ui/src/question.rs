@@ -1,10 +1,12 @@
 //! From a page's command to evidence: what may be answered, and the sentence a person reads when it may not.
 
-use crate::answers::{Answers, Evidence};
+use crate::answers::Answers;
+use crate::evidence::Evidence;
 use crate::protocol::{Confidence, FromPage, Kind};
+use crate::world_answers::{acted, asked_again, compared, marked};
 use apprentice_msgs::geometry_msgs::Point;
 use apprentice_msgs::msg::{
-    LessonStatus, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction, TableScene,
+    LessonStatus, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction, TableScene, WorldQuery,
 };
 use apprentice_msgs::std_msgs::Header;
 use bus::Time;
@@ -17,33 +19,46 @@ pub(crate) struct Context<'a> {
     pub source: &'a str,
     pub scene: Option<&'a TableScene>,
     pub query: Option<&'a PlacementQuery>,
+    pub world_query: Option<&'a WorldQuery>,
     pub lesson: Option<&'a LessonStatus>,
     pub answers: &'a Answers,
 }
 
 impl Context<'_> {
-    /// Whether the newest question waits for an answer: nobody has answered it, and the lesson has not moved on.
+    /// Whether the newest question about a table waits for an answer.
     pub fn is_open(&self) -> bool {
-        let Some(query) = self.query else { return false };
-        let moved_on =
-            self.lesson.is_some_and(|lesson| lesson.revision >= query.revision && lesson.query_id != query.id);
-        !moved_on && !self.answers.has_answered(&query.id)
+        self.query.is_some_and(|query| self.waits(&query.id, query.revision))
     }
 
-    /// The open question, when it has this id.
+    /// Whether the newest question about a world does.
+    pub fn is_world_open(&self) -> bool {
+        self.world_query.is_some_and(|query| self.waits(&query.id, query.revision))
+    }
+
+    /// Whether nobody has answered a question, and the lesson has not moved on.
+    fn waits(&self, id: &str, revision: u64) -> bool {
+        let moved_on = self.lesson.is_some_and(|lesson| lesson.revision >= revision && lesson.query_id != id);
+        !moved_on && !self.answers.has_answered(id)
+    }
+
+    /// The open question about a table, when it has this id.
     fn open(&self, id: &str) -> Result<&PlacementQuery, String> {
-        match self.query.filter(|_| self.is_open()) {
-            Some(query) if query.id == id => Ok(query),
-            Some(query) => Err(format!(
-                "question '{}' is no longer open, so the answer was not sent; the open question is '{}'",
-                shown(id),
-                query.id
-            )),
-            None => Err(format!(
-                "question '{}' is no longer open, so the answer was not sent; no question is open now",
-                shown(id)
-            )),
-        }
+        self.query.filter(|query| self.is_open() && query.id == id).ok_or_else(|| self.closed(id))
+    }
+
+    /// The open question about a world, when it has this id.
+    fn world_open(&self, id: &str) -> Result<&WorldQuery, String> {
+        self.world_query.filter(|query| self.is_world_open() && query.id == id).ok_or_else(|| self.closed(id))
+    }
+
+    fn closed(&self, id: &str) -> String {
+        let of_table = self.query.filter(|_| self.is_open()).map(|query| &query.id);
+        let of_world = self.world_query.filter(|_| self.is_world_open()).map(|query| &query.id);
+        let now = match of_table.or(of_world) {
+            Some(open) => format!("the open question is '{open}'"),
+            None => "no question is open now".to_owned(),
+        };
+        format!("question '{}' is no longer open, so the answer was not sent; {now}", shown(id))
     }
 
     /// The evidence a command stands for; `None` when its id is known already.
@@ -80,6 +95,18 @@ impl Context<'_> {
                     confidence: number(confidence),
                 }))
             }
+            FromPage::Act { id, query_id, action, confidence } => {
+                let evidence = acted(self.world_open(&query_id)?, action, number(confidence))?;
+                evidence.again(Header { stamp: *now, frame_id: String::new() }, id, query_id, source)
+            }
+            FromPage::Mark { id, query_id, segments, confidence } => {
+                let evidence = marked(self.world_open(&query_id)?, &segments, number(confidence))?;
+                evidence.again(Header { stamp: *now, frame_id: String::new() }, id, query_id, source)
+            }
+            FromPage::Compare { id, query_id, better, confidence } => {
+                let evidence = compared(self.world_open(&query_id)?, better, number(confidence))?;
+                evidence.again(Header { stamp: *now, frame_id: String::new() }, id, query_id, source)
+            }
             FromPage::Respond { id, query_id, kind, reason } => {
                 let kind = match kind {
                     Kind::Placement => return Err("a placement is sent with 'place', not with 'respond'".into()),
@@ -95,7 +122,7 @@ impl Context<'_> {
                 }
                 // Stopping must work whatever is being asked.
                 if kind != QueryResponse::STOP {
-                    self.open(&query_id)?;
+                    self.open(&query_id).map(drop).or_else(|_| self.world_open(&query_id).map(drop))?;
                 }
                 let header = Header { stamp: *now, frame_id: String::new() };
                 let query_id = shown(&query_id);
@@ -110,19 +137,10 @@ impl Context<'_> {
             })),
             FromPage::Caution { .. } => return Err("a preference between mean and worst case is no evidence".into()),
             FromPage::Again { id, evidence_id } => {
-                let (before, scene) = self.answers.undone_placement(&evidence_id)?;
-                let (Some(x), Some(y), Some(confidence)) = (before.x_m, before.y_m, before.confidence) else {
-                    return Err("the placement that is to be given again has no place".into());
-                };
-                Evidence::Demonstration(Box::new(PlacementDemonstration {
-                    header: Header { stamp: *now, frame_id: scene.header.frame_id.clone() },
-                    id,
-                    query_id: String::new(),
-                    source,
-                    scene,
-                    placement: Point { x, y, z: 0.0 },
-                    confidence: number(confidence),
-                }))
+                let before = self.answers.undone(&evidence_id)?.clone();
+                let open = self.world_query.filter(|_| self.is_world_open());
+                let (evidence, query_id) = asked_again(before, open);
+                evidence.again(Header { stamp: *now, frame_id: String::new() }, id, query_id, source)
             }
         }))
     }
@@ -132,6 +150,9 @@ impl Context<'_> {
 pub(crate) fn id_of(command: &FromPage) -> &str {
     match command {
         FromPage::Place { id, .. }
+        | FromPage::Act { id, .. }
+        | FromPage::Mark { id, .. }
+        | FromPage::Compare { id, .. }
         | FromPage::Respond { id, .. }
         | FromPage::Retract { id, .. }
         | FromPage::Again { id, .. }

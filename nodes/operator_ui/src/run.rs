@@ -4,7 +4,10 @@ use crate::access::{Access, random_token};
 use crate::hub::Hub;
 use crate::server::{Limits, Server};
 use crate::{Event, OperatorUi, Output, Settings};
-use apprentice_msgs::msg::{PlacementDemonstration, QueryResponse, Retraction, RiskPreference};
+use apprentice_msgs::msg::{
+    ActionDemonstration, PlacementDemonstration, QueryResponse, Retraction, RiskPreference, SegmentCritique,
+    TrajectoryPreference,
+};
 use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
 use std::fs::File;
@@ -28,6 +31,9 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
 
     let mut bus = Bus::open(graph, arguments, &settings)?;
     let demonstration = bus.publisher::<PlacementDemonstration>("demonstration", Qos::Event)?;
+    let actions = bus.publisher::<ActionDemonstration>("action_demonstration", Qos::Event)?;
+    let critique = bus.publisher::<SegmentCritique>("critique", Qos::Event)?;
+    let comparison = bus.publisher::<TrajectoryPreference>("preference", Qos::Event)?;
     let retraction = bus.publisher::<Retraction>("retraction", Qos::Event)?;
     let response = bus.publisher::<QueryResponse>("response", Qos::Event)?;
     let preference = bus.publisher::<RiskPreference>("risk_preference", Qos::State)?;
@@ -42,6 +48,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     bus.subscribe("receipt", Qos::Event, |message| Event::Receipt(Box::new(message)))?;
     bus.subscribe("evidence", Qos::State, |message| Event::Evidence(Box::new(message)))?;
     bus.subscribe("world", Qos::State, |message| Event::World(Box::new(message)))?;
+    bus.subscribe("world_query", Qos::State, |message| Event::WorldQuery(Box::new(message)))?;
     bus.subscribe("robust_policy", Qos::State, |message| Event::Policy(Box::new(message)))?;
     bus.subscribe("policy_frontier", Qos::State, |message| Event::Frontier(Box::new(message)))?;
     bus.subscribe("policy_bounds", Qos::State, |message| Event::PolicyBounds(Box::new(message)))?;
@@ -63,6 +70,9 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
         for output in node.step(now, event) {
             match output {
                 Output::Demonstration(message) => demonstration.publish(&message)?,
+                Output::Actions(message) => actions.publish(&message)?,
+                Output::Critique(message) => critique.publish(&message)?,
+                Output::Comparison(message) => comparison.publish(&message)?,
                 Output::Retraction(message) => retraction.publish(&message)?,
                 Output::Response(message) => response.publish(&message)?,
                 Output::Preference(message) => preference.publish(&message)?,

@@ -1,17 +1,20 @@
 //! A lesson about a world, as the pages are shown it, and what they ask the robot's caution to be.
 
 use crate::protocol::{
-    CautionView, FrontierView, LossPoint, PolicyView, RobustBoundsView, Sections, WeightView, WorldView,
+    CautionView, FrontierView, LossPoint, PolicyView, RobustBoundsView, Sections, WeightView, WorldQuestionView,
+    WorldView,
 };
 use crate::question::is_uuid;
-use crate::tabular_view::{frontier_view, policy_view, robust_bounds_view, weights_view, world_view};
+use crate::tabular_view::{
+    frontier_view, policy_view, robust_bounds_view, weights_view, world_question_view, world_view,
+};
 use crate::view::{finite, goal};
 use apprentice_msgs::msg::{
-    LessonStatus, PolicyBounds, PolicyFrontier, Posterior, RiskPreference, RobustPolicy, TabularWorld,
+    LessonStatus, PolicyBounds, PolicyFrontier, Posterior, RiskPreference, RobustPolicy, TabularWorld, WorldQuery,
 };
 use apprentice_msgs::std_msgs::Header;
 use bus::Time;
-use exchange::{MAX_ID, check_robust_policy, world_from_message, world_hash};
+use exchange::{MAX_ID, World, check_robust_policy, check_world_query, world_from_message, world_hash};
 
 /// A preference that no policy follows yet is published again after this long, nanoseconds.
 const REPUBLISH_NS: i128 = 990_000_000;
@@ -69,7 +72,8 @@ struct Wish {
 /// See the module.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Tabular {
-    world: Option<WorldView>,
+    world: Option<(World, WorldView)>,
+    query: Option<Box<WorldQuery>>,
     policy: Option<PolicyView>,
     /// Number of the preference that the newest policy follows.
     followed: u64,
@@ -82,12 +86,13 @@ pub(crate) struct Tabular {
 
 impl Tabular {
     pub fn take_world(&mut self, message: &TabularWorld) -> Result<News, String> {
-        if self.world.as_ref().is_some_and(|known| known.hash == world_hash(message)) {
+        if self.world.as_ref().is_some_and(|(known, _)| known.hash == world_hash(message)) {
             return Ok(News::NONE);
         }
         match world_from_message(message) {
             Ok(world) => {
-                self.world = Some(world_view(&world));
+                let view = world_view(&world);
+                self.world = Some((world, view));
                 Ok(News { world: true, ..News::NONE })
             }
             Err(error) => {
@@ -95,6 +100,30 @@ impl Tabular {
                 Err(format!("the world '{id}' cannot be shown: {error}"))
             }
         }
+    }
+
+    /// Takes a question about the world; whether that is news. One about a world that is not known, or not yet, is not shown:
+    /// it comes again.
+    pub fn take_query(&mut self, message: Box<WorldQuery>) -> Result<bool, String> {
+        let Some((world, _)) = self.world.as_ref().filter(|(world, _)| world.hash == message.world.hash) else {
+            return Ok(false);
+        };
+        let id: String = message.id.chars().take(MAX_ID).collect();
+        check_world_query(&message, world).map_err(|error| format!("question '{id}' cannot be shown: {error}"))?;
+        let before = self.query.as_ref().map(|known| world_question_view(known, true));
+        let is_news = before != Some(world_question_view(&message, true));
+        self.query = Some(message);
+        Ok(is_news)
+    }
+
+    /// The newest question about the world.
+    pub fn query(&self) -> Option<&WorldQuery> {
+        self.query.as_deref()
+    }
+
+    /// The same for pages.
+    pub fn question(&self, open: bool) -> Option<WorldQuestionView> {
+        self.query.as_ref().map(|query| world_question_view(query, open))
     }
 
     pub fn take_policy(&mut self, message: &RobustPolicy) -> Result<News, String> {
@@ -194,7 +223,7 @@ impl Tabular {
 
     /// Puts what is new into the sections.
     pub fn fill(&self, news: News, sections: &mut Sections) {
-        sections.world = news.world.then(|| self.world.clone());
+        sections.world = news.world.then(|| self.world.as_ref().map(|(_, view)| view.clone()));
         sections.policy = news.policy.then(|| self.policy.clone());
         sections.frontier = news.frontier.then(|| self.frontier.clone());
         sections.robust_bounds = news.bounds.then(|| self.bounds.clone());

@@ -1,14 +1,17 @@
 //! Messages about a world as the pages see them: checked, with `null` for what is not finite.
 
 use crate::protocol::{
-    BoundView, FrontierView, PictureView, PointView, PolicyView, RobustBoundsView, WeightView, WorldView,
+    BoundView, FrontierView, PictureView, PointView, PolicyView, RobustBoundsView, WayView, WeightView,
+    WorldQuestionView, WorldView,
 };
 use crate::view::finite;
-use apprentice_msgs::msg::{PolicyBounds, PolicyFrontier, Posterior, RiskBound, RobustPolicy};
+use apprentice_msgs::msg::{PolicyBounds, PolicyFrontier, Posterior, RiskBound, RobustPolicy, WorldQuery};
 use exchange::{Picture, ROBUST_POLICY, World, check_posterior};
 
 /// More states than this are not drawn.
 pub(crate) const MAX_DRAWN: usize = 2500;
+/// Longer reasons are cut, characters.
+const MAX_REASON: usize = 2000;
 /// More weights than this are not listed.
 const MAX_WEIGHTS: usize = 64;
 /// More points than this are not drawn.
@@ -71,6 +74,29 @@ pub(crate) fn world_view(world: &World) -> WorldView {
         cells: (0..states).map(largest).collect(),
         starts: (0..states).filter(|&state| mdp.initial()[state] > 0.0).collect(),
         terminals: (0..states).filter(|&state| mdp.is_terminal(state)).collect(),
+    }
+}
+
+/// A question that was checked; whether it is open is for the caller to say.
+pub(crate) fn world_question_view(query: &WorldQuery, open: bool) -> WorldQuestionView {
+    WorldQuestionView {
+        id: query.id.clone(),
+        revision: query.revision,
+        kind: match query.kind {
+            WorldQuery::ACTION => "action",
+            WorldQuery::CRITIQUE => "critique",
+            _ => "comparison",
+        },
+        state: query.state,
+        ways: query
+            .trajectories
+            .iter()
+            .map(|way| WayView { id: way.id.clone(), states: way.states.clone(), actions: way.actions.clone() })
+            .collect(),
+        reason: query.reason.chars().take(MAX_REASON).collect(),
+        held_out: query.held_out,
+        n_candidates: query.n_candidates,
+        open,
     }
 }
 

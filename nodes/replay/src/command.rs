@@ -136,6 +136,7 @@ fn words(report: &Report) -> Vec<String> {
         ("candidates", report.candidates),
         ("bounds", report.bounds),
         ("questions", report.queries),
+        ("questions about worlds", report.world_queries),
         ("lesson states", report.lessons),
         ("plans", report.plans),
         ("previews", report.previews),

@@ -2,36 +2,63 @@
 
 use crate::report::{Mismatch, found};
 use crate::{Difference, Lesson, Recording, ReplayError};
-use active_query::world_lesson;
-use apprentice_msgs::msg::{LessonStatus, PolicyFrontier, RiskPreference, RobustPolicy};
+use active_query::{WorldInputs, world_lesson, world_question};
+use apprentice_msgs::msg::{LessonStatus, PolicyFrontier, RiskPreference, RobustPolicy, WorldQuery};
 use apprentice_msgs::{Message, to_cdr};
 use bus::NodeSettings;
 use exchange::demonstrations_in_force;
 use policy_optimizer::{Inputs, Policies};
 
-/// The revisions of a lesson about a world whose state was due, since the robot's policy had been judged.
-pub(crate) fn lessons_due(recording: &Recording, lesson: &Lesson) -> usize {
-    let of_world = lesson.rounds.iter().filter(|round| round.table.is_none()).map(|round| round.posterior.revision);
-    of_world.filter(|revision| !states(recording, lesson, *revision).is_empty()).count()
+/// What may be said at a revision of a lesson about a world: one state, and perhaps a question, for each judgement of the robot's
+/// policy.
+#[derive(Default)]
+pub(crate) struct Said {
+    states: Vec<LessonStatus>,
+    queries: Vec<WorldQuery>,
 }
 
-/// The states that a revision of a lesson about a world may have: one for each judgement of the robot's policy.
-fn states(recording: &Recording, lesson: &Lesson, revision: u64) -> Vec<LessonStatus> {
-    let (Some(settings), Some(round)) = (&lesson.query, lesson.round(revision)) else { return Vec::new() };
-    let judged = recording.policy_bounds.get(&revision).into_iter().flatten();
-    judged.filter_map(|(bounds, _)| world_lesson(settings, &round.posterior, bounds)).collect()
+impl Said {
+    /// Whether a state was due, since the robot's policy had been judged.
+    pub fn is_due(&self) -> bool {
+        !self.states.is_empty()
+    }
+
+    /// Whether a question was due.
+    pub fn is_asking(&self) -> bool {
+        !self.queries.is_empty()
+    }
 }
 
-/// Recorded states of a lesson about a world must follow from one of the recorded bounds on the robot's policy, which are
-/// compared on their own.
-pub(crate) fn world_lessons(recording: &Recording, lesson: &Lesson, revision: u64) -> Option<Mismatch> {
-    let recorded = recording.lesson.get(&revision)?;
-    let states = states(recording, lesson, revision);
-    let known: Vec<Vec<u8>> = states.iter().map(to_cdr).collect();
-    let (other, _) = recorded.iter().find(|(_, bytes)| !known.contains(bytes))?;
-    Some(match states.last() {
-        Some(state) => found(other, state, revision),
-        None => none_is_due(LessonStatus::TYPE, revision),
+/// What may be said at a revision.
+pub(crate) fn said(recording: &Recording, lesson: &Lesson, revision: u64) -> Said {
+    let mut said = Said::default();
+    let (Some(settings), Some(round)) = (&lesson.query, lesson.round(revision)) else { return said };
+    let posterior = &round.posterior;
+    for (bounds, _) in recording.policy_bounds.get(&revision).into_iter().flatten() {
+        let Some(state) = world_lesson(settings, posterior, bounds) else { continue };
+        let world = lesson.worlds.get(&posterior.world.hash);
+        let inputs = world.map(|world| WorldInputs { posterior, world, log: &recording.evidence, bounds });
+        let asked = inputs.and_then(|inputs| world_question(settings, &inputs, &state).ok().flatten());
+        let (query, state) = asked.map_or((None, state), |(query, state)| (Some(query), state));
+        said.queries.extend(query);
+        said.states.push(state);
+    }
+    said
+}
+
+/// Recorded states of a lesson about a world, and its questions, must follow from one of the recorded bounds on the robot's
+/// policy, which are compared on their own.
+pub(crate) fn world_lessons(recording: &Recording, said: &Said, revision: u64) -> Option<Mismatch> {
+    one_of(recording.world_query.get(&revision), &said.queries, revision)
+        .or_else(|| one_of(recording.lesson.get(&revision), &said.states, revision))
+}
+
+fn one_of<M: Message>(recorded: Option<&Vec<(M, Vec<u8>)>>, possible: &[M], revision: u64) -> Option<Mismatch> {
+    let known: Vec<Vec<u8>> = possible.iter().map(to_cdr).collect();
+    let (other, _) = recorded?.iter().find(|(_, bytes)| !known.contains(bytes))?;
+    Some(match possible.last() {
+        Some(last) => found(other, last, revision),
+        None => none_is_due(M::TYPE, revision),
     })
 }
 

@@ -4,6 +4,7 @@ use crate::ReplayError;
 use apprentice_msgs::msg::{
     Candidates, EvidenceLog, LessonStatus, NodeSettings, PerformanceBounds, PlacementPlan, PlacementQuery,
     PolicyBounds, PolicyFrontier, PolicySet, Posterior, PosteriorPreview, RiskPreference, RobustPolicy, TabularWorld,
+    WorldQuery,
 };
 use apprentice_msgs::{Message, from_cdr, std_msgs, to_cdr};
 use exchange::world_hash;
@@ -39,6 +40,8 @@ pub struct Recording {
     pub bounds: Recorded<PerformanceBounds>,
     /// Recorded questions.
     pub query: Recorded<PlacementQuery>,
+    /// Recorded questions about a world.
+    pub world_query: Recorded<WorldQuery>,
     /// Recorded states of the lesson.
     pub lesson: Recorded<LessonStatus>,
     /// Recorded plans and guesses.
@@ -117,6 +120,7 @@ impl Recording {
             Candidates::TYPE => insert(&mut self.candidates, topic, index, cdr, |m| m.revision),
             PerformanceBounds::TYPE => insert(&mut self.bounds, topic, index, cdr, |m| m.revision),
             PlacementQuery::TYPE => insert(&mut self.query, topic, index, cdr, |m| m.revision),
+            WorldQuery::TYPE => insert(&mut self.world_query, topic, index, cdr, |m| m.revision),
             LessonStatus::TYPE => insert(&mut self.lesson, topic, index, cdr, |m| m.revision),
             PlacementPlan::TYPE => insert(&mut self.plan, topic, index, cdr, |m| m.revision),
             EvidenceLog::TYPE => self.evidence(decode(topic, index, cdr)?),

@@ -41,6 +41,8 @@ pub struct Report {
     pub bounds: Checked,
     /// Questions compared.
     pub queries: Checked,
+    /// Questions about a world compared.
+    pub world_queries: Checked,
     /// States of the lesson compared.
     pub lessons: Checked,
     /// Plans and guesses compared.
@@ -61,17 +63,22 @@ pub struct Report {
 pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, ReplayError> {
     let last = recording.evidence.records.len() as u64;
     let mut mismatch = None;
+    let (mut n_states, mut n_asked) = (0, 0);
     for r in 0..=last {
         let round = lesson.round(r);
+        let is_of_world = round.is_some_and(|round| round.table.is_none());
+        let said = if is_of_world { policies::said(recording, lesson, r) } else { policies::Said::default() };
+        n_states += usize::from(said.is_due());
+        n_asked += usize::from(said.is_asking());
         let table = round.and_then(|round| round.table.as_ref());
         mismatch = mismatch
             .or_else(|| compare(&recording.posterior, r, round.map(|round| &round.posterior)))
             .or_else(|| compare(&recording.candidates, r, table.map(|table| &table.candidates)))
             .or_else(|| compare(&recording.bounds, r, table.map(|table| &table.bounds)))
             .or_else(|| compare(&recording.query, r, table.and_then(|table| table.query.as_ref())))
-            .or_else(|| match round {
-                Some(round) if round.table.is_none() => policies::world_lessons(recording, lesson, r),
-                _ => compare(&recording.lesson, r, table.map(|table| &table.lesson)),
+            .or_else(|| match is_of_world {
+                true => policies::world_lessons(recording, &said, r),
+                false => compare(&recording.lesson, r, table.map(|table| &table.lesson)),
             });
     }
     mismatch = mismatch
@@ -79,6 +86,7 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
         .or_else(|| beyond(&recording.candidates, last))
         .or_else(|| beyond(&recording.bounds, last))
         .or_else(|| beyond(&recording.query, last))
+        .or_else(|| beyond(&recording.world_query, last))
         .or_else(|| beyond(&recording.lesson, last));
     for plans in recording.plan.values() {
         for (recorded, bytes) in plans {
@@ -125,7 +133,8 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
         candidates: checked(&recording.candidates, n_tables),
         bounds: checked(&recording.bounds, n_tables),
         queries: checked(&recording.query, tables.filter(|table| table.query.is_some()).count()),
-        lessons: checked(&recording.lesson, n_tables.max(policies::lessons_due(recording, lesson))),
+        world_queries: checked(&recording.world_query, n_asked),
+        lessons: checked(&recording.lesson, n_tables.max(n_states)),
         plans: checked(&recording.plan, n_tables),
         previews: checked(&recording.preview, lesson.previews.len()),
         policy_bounds,

@@ -2,7 +2,7 @@
 
 use apprentice_msgs::msg::{
     ActionDemonstration, EvidenceLog, EvidenceRecord, LessonStatus, NodeSettings, PolicyBounds, PolicyFrontier,
-    PolicySet, RiskPreference, RobustPolicy, TabularWorld, WorldReference,
+    PolicySet, RiskPreference, RobustPolicy, TabularWorld, WorldQuery, WorldReference,
 };
 use apprentice_msgs::{Message, from_cdr, to_cdr};
 use bus::{NodeSettings as _, settings_to_yaml};
@@ -99,8 +99,14 @@ fn session() -> Bag {
             let asked = PolicyBounds { revision, ..PolicyBounds::default() };
             let judged = lesson.rejudge(&asked, &set).expect("they can be judged");
             record(&mut bag, "policy_bounds", &judged);
-            let state = active_query::world_lesson(&active_query::Settings::default(), &round.posterior, &judged);
-            record(&mut bag, "lesson", &state.expect("it is about a world"));
+            let settings = active_query::Settings::default();
+            let state = active_query::world_lesson(&settings, &round.posterior, &judged).expect("it is about a world");
+            let (posterior, log) = (&round.posterior, &recording.evidence);
+            let inputs = active_query::WorldInputs { posterior, world: &of, log, bounds: &judged };
+            let asked = active_query::world_question(&settings, &inputs, &state).expect("it fits together");
+            let (query, state) = asked.expect("the lesson goes on");
+            record(&mut bag, "world_query", &query);
+            record(&mut bag, "lesson", &state);
         }
         record(&mut bag, "policy_frontier", &policy_optimizer::frontier(&optimizer(), &inputs));
     }
@@ -130,6 +136,7 @@ fn policies_frontiers_and_states_are_equal_bit_for_bit_with_any_number_of_thread
         assert_eq!((report.robust_policies.recorded, report.frontiers.recorded), (6, 3));
         // At one revision both balances come to the same policy, and to the same state.
         assert_eq!((report.policy_bounds.recorded, report.lessons.recorded, report.lessons.revisions), (4, 3, 2));
+        assert_eq!((report.world_queries.recorded, report.world_queries.revisions), (3, 2));
     }
 }
 
@@ -145,6 +152,8 @@ fn a_changed_bit_is_named_wherever_it_is() {
     assert_eq!(frontier, (PolicyFrontier::TYPE, 2, "points[4].expected_return".into()));
     let state = found(changed(session(), 2, |m: &mut LessonStatus| next(&mut m.loss_bound)));
     assert_eq!((state.0, state.1), (LessonStatus::TYPE, 2));
+    let asked = found(changed(session(), 2, |m: &mut WorldQuery| m.state ^= 1));
+    assert_eq!(asked, (WorldQuery::TYPE, 2, "state".into()));
     // A set that is not the optimizer's: its own bounds would be consistent, but the policy in it is another.
     let set = found(changed(session(), 3, |m: &mut PolicySet| m.policies[1].action_probabilities.swap(0, 1)));
     assert_eq!(set.1, 2);

@@ -219,7 +219,13 @@ impl Evidence {
     /// Questions answered or skipped, taken back or not.
     pub fn n_answers(&self) -> u64 {
         let answered = |record: &&EvidenceRecord| {
-            record.demonstration.first().is_some_and(|d| !d.query_id.is_empty()) || !record.response.is_empty()
+            let query_ids = [
+                record.demonstration.first().map(|m| &m.query_id),
+                record.actions.first().map(|m| &m.query_id),
+                record.preference.first().map(|m| &m.query_id),
+                record.critique.first().map(|m| &m.query_id),
+            ];
+            query_ids.into_iter().flatten().any(|id| !id.is_empty()) || !record.response.is_empty()
         };
         self.records.iter().filter(answered).count() as u64
     }

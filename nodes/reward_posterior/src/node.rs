@@ -12,7 +12,7 @@ use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
     ActionDemonstration, EvidenceLog, EvidenceReceipt, EvidenceRecord, LearnerHistory, PlacementDemonstration,
     PlacementQuery, Posterior, PosteriorPreview, QueryResponse, Retraction, SegmentCritique, TableScene, TabularWorld,
-    TrajectoryPreference,
+    TrajectoryPreference, WorldQuery,
 };
 use apprentice_msgs::std_msgs::Header;
 use exchange::{MAX_ID, world_from_message};
@@ -42,8 +42,10 @@ pub enum Event {
     Retraction(Box<Retraction>),
     /// A person answers otherwise.
     Response(Box<QueryResponse>),
-    /// A question was asked.
+    /// A question about a table was asked.
     Query(Box<PlacementQuery>),
+    /// A question about a world was asked.
+    WorldQuery(Box<WorldQuery>),
     /// Time to compute what [`Output::Recompute`] asked for.
     Recompute,
     /// Once a second.
@@ -78,6 +80,7 @@ pub struct RewardPosterior {
     /// The world of the evidence, or one that it may take up next.
     offered: Option<Box<TabularWorld>>,
     query: Option<Box<PlacementQuery>>,
+    world_query: Option<Box<WorldQuery>>,
     known: Vec<String>,
     waiting: Waiting,
     sampled: Option<Sampled>,
@@ -96,6 +99,7 @@ impl RewardPosterior {
             evidence: Evidence::default(),
             offered: None,
             query: None,
+            world_query: None,
             known: Vec::new(),
             waiting: Waiting::default(),
             sampled: None,
@@ -160,7 +164,20 @@ impl RewardPosterior {
             Event::History(message) => self.piece(Piece::History(message)),
             Event::Retraction(message) => self.piece(Piece::Retraction(message)),
             Event::Response(message) => self.piece(Piece::Response(message)),
-            Event::Query(query) => self.asked(query),
+            Event::Query(query) => {
+                self.know(&query.id);
+                if query.revision == self.evidence.revision() {
+                    self.query = Some(query);
+                }
+                self.look_again()
+            }
+            Event::WorldQuery(query) => {
+                self.know(&query.id);
+                if query.revision == self.evidence.revision() {
+                    self.world_query = Some(query);
+                }
+                self.look_again()
+            }
             Event::Recompute => self.recompute(),
             Event::Tick => self.tick(),
         }
@@ -190,17 +207,14 @@ impl RewardPosterior {
         outputs
     }
 
-    fn asked(&mut self, query: Box<PlacementQuery>) -> Vec<Output> {
-        if !self.known.contains(&query.id) {
+    /// Remembers that a question was asked.
+    fn know(&mut self, id: &str) {
+        if !self.known.iter().any(|known| known == id) {
             if self.known.len() == MAX_KNOWN {
                 self.known.remove(0);
             }
-            self.known.push(query.id.clone());
+            self.known.push(id.to_owned());
         }
-        if query.revision == self.evidence.revision() {
-            self.query = Some(query);
-        }
-        self.look_again()
     }
 
     /// Judges everything that waits anew.
@@ -249,7 +263,7 @@ impl RewardPosterior {
                 let revision = record.sequence;
                 let journal = Entry::Record(record.clone()).to_bytes();
                 self.evidence.append(*record).expect("it was checked just now");
-                self.query = None;
+                (self.query, self.world_query) = (None, None);
                 vec![
                     Output::Journal(journal),
                     receipt(EvidenceReceipt::ACCEPTED, String::new(), revision),
@@ -339,8 +353,10 @@ impl RewardPosterior {
     }
 
     fn open(&self) -> Open<'_> {
-        let query = self.query.as_deref().filter(|query| query.revision == self.evidence.revision());
-        Open { query, known: &self.known }
+        let revision = self.evidence.revision();
+        let query = self.query.as_deref().filter(|query| query.revision == revision);
+        let world_query = self.world_query.as_deref().filter(|query| query.revision == revision);
+        Open { query, world_query, known: &self.known }
     }
 }
 

@@ -75,7 +75,7 @@ impl Piece {
             Self::Response(m) => [&m.source, &m.reason, ""],
             Self::Preference(m) => [&m.source, &m.query_id, ""],
             Self::Critique(m) => [&m.source, &m.query_id, &m.world_id],
-            Self::Actions(m) => [&m.source, &m.world_id, ""],
+            Self::Actions(m) => [&m.source, &m.query_id, &m.world_id],
             Self::Demonstration(_) | Self::History(_) => [self.source(), "", ""],
         }
     }
@@ -133,7 +133,9 @@ pub(crate) fn bare(record: &EvidenceRecord) -> EvidenceRecord {
     for m in &mut record.critique {
         (m.source, m.query_id) = (String::new(), String::new());
     }
-    record.actions.iter_mut().for_each(|m| m.source = String::new());
+    for m in &mut record.actions {
+        (m.source, m.query_id) = (String::new(), String::new());
+    }
     record.history.iter_mut().for_each(|m| m.source = String::new());
     record
 }

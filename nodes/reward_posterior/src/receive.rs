@@ -4,8 +4,8 @@ use crate::inference::demonstration_from_message;
 use crate::piece::{Piece, unstamped};
 use crate::{Evidence, Settings};
 use apprentice_msgs::msg::{
-    EvidenceRecord, FeatureTrajectory, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction,
-    TrajectoryPreference,
+    ActionDemonstration, EvidenceRecord, FeatureTrajectory, PlacementDemonstration, PlacementQuery, QueryResponse,
+    Retraction, SegmentCritique, TrajectoryPreference, WorldQuery, WorldTrajectory,
 };
 use apprentice_msgs::to_cdr;
 use exchange::{
@@ -41,8 +41,10 @@ pub(crate) enum Verdict {
 /// Which question may be answered.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Open<'a> {
-    /// The newest question, when it has not been answered.
+    /// The newest question about a table, when it has not been answered.
     pub query: Option<&'a PlacementQuery>,
+    /// The newest question about a world, when it has not been answered.
+    pub world_query: Option<&'a WorldQuery>,
     /// Ids of questions heard of before.
     pub known: &'a [String],
 }
@@ -57,9 +59,16 @@ pub(crate) fn judge(settings: &Settings, evidence: &Evidence, open: Open<'_>, pi
             Piece::Demonstration(message) => demonstration(evidence, open, message),
             Piece::Retraction(message) => retraction(evidence, message),
             Piece::Response(message) => response(open, message),
-            Piece::Actions(message) => steps_from_message(message, world(evidence)?).map(drop).map_err(refusal),
-            Piece::Critique(message) => marks_from_message(message, world(evidence)?).map(drop).map_err(refusal),
+            Piece::Actions(message) => {
+                steps_from_message(message, world(evidence)?).map_err(refusal)?;
+                answers(open, &message.query_id, |query| is_action(query, message))
+            }
+            Piece::Critique(message) => {
+                marks_from_message(message, world(evidence)?).map_err(refusal)?;
+                answers(open, &message.query_id, |query| is_critique(query, message))
+            }
             Piece::Preference(message) => {
+                answers(open, &message.query_id, |query| is_comparison(query, message))?;
                 compared(evidence, &message.trajectories, |n| check_preference(message, n).map_err(refusal))?;
                 is_expected(settings, message)?;
                 named(evidence)
@@ -85,7 +94,10 @@ fn demonstration(evidence: &Evidence, open: Open<'_>, message: &PlacementDemonst
         return refuse(format!("the {} cannot be at ({}, {}) m: {obstruction}", core.scene.target.label, at.x, at.y));
     }
     if !message.query_id.is_empty() {
-        let query = is_open(open, &message.query_id)?;
+        is_open(open, &message.query_id)?;
+        let Some(query) = open.query.filter(|query| query.id == message.query_id) else {
+            return refuse(format!("question '{}' does not ask for a place", shown(&message.query_id)));
+        };
         let asked = scene_from_message(&query.scene).map_err(refusal)?;
         if asked.objects != core.scene.objects || asked.target.shape != core.scene.target.shape {
             return refuse(format!("its scene is not the one that question '{}' asks about", query.id));
@@ -243,19 +255,46 @@ fn same_features(evidence: &Evidence, scene: &Scene) -> Result<(), Verdict> {
     refuse(format!("its scene has the objects [{}], but this lesson is about [{}]", ids(scene), ids(task)))
 }
 
-fn is_open<'a>(open: Open<'a>, id: &str) -> Result<&'a PlacementQuery, Verdict> {
-    match open.query {
-        Some(query) if query.id == id => Ok(query),
-        other => {
-            let now = match other {
-                Some(query) => format!("; the open question is '{}'", query.id),
-                None => "; no question is open".into(),
-            };
-            if open.known.iter().any(|known| known == id) {
-                refuse(format!("question '{}' is no longer open{now}", shown(id)))
-            } else {
-                Err(Verdict::Unknown(format!("question '{}' was never asked{now}", shown(id))))
-            }
-        }
+fn is_open(open: Open<'_>, id: &str) -> Result<(), Verdict> {
+    let asked = [open.query.map(|query| &query.id), open.world_query.map(|query| &query.id)];
+    if asked.into_iter().flatten().any(|known| known == id) {
+        return Ok(());
     }
+    let now = match asked.into_iter().flatten().next() {
+        Some(other) => format!("; the open question is '{}'", shown(other)),
+        None => "; no question is open".into(),
+    };
+    if open.known.iter().any(|known| known == id) {
+        refuse(format!("question '{}' is no longer open{now}", shown(id)))
+    } else {
+        Err(Verdict::Unknown(format!("question '{}' was never asked{now}", shown(id))))
+    }
+}
+
+/// Evidence about a world that names a question of ours answers it while it is open, and nothing else. Others may ask, too:
+/// their questions are not known here.
+fn answers(open: Open<'_>, id: &str, is_answer: impl Fn(&WorldQuery) -> bool) -> Result<(), Verdict> {
+    match open.world_query.filter(|query| query.id == id) {
+        Some(query) if is_answer(query) => Ok(()),
+        Some(_) => refuse(format!("it does not answer what question '{}' asks", shown(id))),
+        None if open.known.iter().any(|known| known == id) => is_open(open, id),
+        None => Ok(()),
+    }
+}
+
+fn is_action(query: &WorldQuery, message: &ActionDemonstration) -> bool {
+    query.kind == WorldQuery::ACTION && message.states == [query.state]
+}
+
+fn is_critique(query: &WorldQuery, message: &SegmentCritique) -> bool {
+    let is_it = |shown: &WorldTrajectory| (&shown.states, &shown.actions) == (&message.states, &message.actions);
+    query.kind == WorldQuery::CRITIQUE && query.trajectories.first().is_some_and(is_it)
+}
+
+/// The two that were shown, in either order.
+fn is_comparison(query: &WorldQuery, message: &TrajectoryPreference) -> bool {
+    let is_shown = |compared: &FeatureTrajectory| {
+        query.trajectories.iter().any(|shown| (&shown.id, &shown.features) == (&compared.id, &compared.features))
+    };
+    query.kind == WorldQuery::COMPARISON && message.trajectories.len() == 2 && message.trajectories.iter().all(is_shown)
 }

@@ -28,6 +28,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     };
     bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
+    bus.subscribe("world_query", Qos::State, |message| Event::WorldQuery(Box::new(message)))?;
     bus.subscribe("world", Qos::State, |message| Event::World(Box::new(message)))?;
     bus.subscribe("demonstration", Qos::Event, |message| Event::Demonstration(Box::new(message)))?;
     bus.subscribe("action_demonstration", Qos::Event, |message| Event::Actions(Box::new(message)))?;

@@ -8,6 +8,7 @@ mod robust_policy;
 mod table;
 mod text;
 mod world;
+mod world_query;
 
 pub use evidence::{
     Confidence, EvidenceError, MAX_FEATURE, MAX_STEPS, MAX_TRAJECTORIES, Mark, check_history, check_preference,
@@ -23,6 +24,7 @@ pub use robust_policy::{
 pub use table::{ExchangeError, point_from_message, point_to_message, scene_from_message, scene_to_message};
 pub use text::{MAX_ID, TextError};
 pub use world::{Picture, World, WorldError, world_from_message, world_hash, world_to_message};
+pub use world_query::{MAX_SHOWN_STEPS, WorldQueryError, check_world_query, feature_trajectory};
 
 /// More weights than this are refused.
 pub const MAX_WEIGHTS: usize = 1024;

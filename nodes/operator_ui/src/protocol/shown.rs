@@ -243,10 +243,16 @@ pub struct AnswerView {
     pub x_m: Option<f64>,
     /// Of a placement.
     pub y_m: Option<f64>,
-    /// Of a placement.
+    /// How sure the person was.
     pub confidence: Option<Confidence>,
     /// Steps shown, trajectories compared, segments marked or attempts told.
     pub n: Option<u32>,
+    /// State and action, where one step was shown.
+    pub step: Option<[u32; 2]>,
+    /// Of a comparison: `ranked`, `equal` or `cant_tell`.
+    pub said: Option<&'static str>,
+    /// Steps marked good and steps marked bad.
+    pub marked: Option<[u32; 2]>,
     /// What became of it.
     pub state: Fate,
     /// Of the posterior that took it in.

@@ -214,3 +214,37 @@ pub struct LossPoint {
     /// The claim, or why there is none.
     pub reason: String,
 }
+
+/// The newest question about the world.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WorldQuestionView {
+    /// Unique within a session.
+    pub id: String,
+    /// Of the posterior.
+    pub revision: u64,
+    /// `action`, `critique` or `comparison`.
+    pub kind: &'static str,
+    /// That it is about.
+    pub state: u32,
+    /// None, one or two by kind; the first of two belongs on the left.
+    pub ways: Vec<WayView>,
+    /// What is asked, and why, in words.
+    pub reason: String,
+    /// Whether it was drawn at random to be held out.
+    pub held_out: bool,
+    /// How many questions it was chosen from.
+    pub n_candidates: u32,
+    /// Whether it may be answered.
+    pub open: bool,
+}
+
+/// A way through the world.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WayView {
+    /// Unique within a session.
+    pub id: String,
+    /// In the order of time.
+    pub states: Vec<u32>,
+    /// Taken in each of the states.
+    pub actions: Vec<u32>,
+}

@@ -1,7 +1,10 @@
 //! The state machine with a page in front of it.
 
 use super::{bounds, lesson, plan, posterior, query, receipt, scene};
-use apprentice_msgs::msg::{PlacementDemonstration, QueryResponse, Retraction, RiskPreference};
+use apprentice_msgs::msg::{
+    ActionDemonstration, PlacementDemonstration, QueryResponse, Retraction, RiskPreference, SegmentCritique,
+    TrajectoryPreference,
+};
 use operator_ui::{Event, OperatorUi, Output, Settings};
 use serde_json::{Value, json};
 
@@ -17,6 +20,9 @@ pub struct Table {
 #[derive(Default)]
 pub struct Sent {
     pub demonstrations: Vec<PlacementDemonstration>,
+    pub actions: Vec<ActionDemonstration>,
+    pub critiques: Vec<SegmentCritique>,
+    pub comparisons: Vec<TrajectoryPreference>,
     pub retractions: Vec<Retraction>,
     pub responses: Vec<QueryResponse>,
     pub preferences: Vec<RiskPreference>,
@@ -52,6 +58,9 @@ impl Table {
         for output in self.node.step(now, event) {
             match output {
                 Output::Demonstration(message) => sent.demonstrations.push(*message),
+                Output::Actions(message) => sent.actions.push(*message),
+                Output::Critique(message) => sent.critiques.push(*message),
+                Output::Comparison(message) => sent.comparisons.push(*message),
                 Output::Retraction(message) => sent.retractions.push(*message),
                 Output::Response(message) => sent.responses.push(*message),
                 Output::Preference(message) => sent.preferences.push(*message),

@@ -1,0 +1,326 @@
+//! Which question about a world is asked (dissertation chapter 8): a function of settings, posterior, world, evidence and bounds.
+
+use crate::settings::{QuestionKind, Settings, Strategy};
+use crate::world_rests::{Rests, world_query_id};
+use crate::world_subjects::{Subject, Ways, situations};
+use crate::world_words::{self, Why};
+use apprentice_msgs::msg::{
+    EvidenceLog, LessonStatus, PolicyBounds, Posterior, RiskBound, WorldQuery, WorldTrajectory,
+};
+use exchange::{ROBUST_POLICY, World, check_posterior};
+use inquiry::tabular::{Answering, discounted_features, normalised_state_losses, state_losses};
+use inquiry::{
+    Answers, Belief, DrawnOptima, Effort, InquiryError, Losses, Question, Round, Selecting, Selection, select,
+    values_at_risk,
+};
+use likelihood::preferences::AnswerModel;
+use mdp::random::uniform;
+use mdp::{Mdp, Policy, Solver};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use sha2::{Digest, Sha256};
+
+/// Draws that answers are judged by: evenly spaced ones.
+const SCORED: usize = 200;
+/// Fewer say nothing of a 0.95-quantile.
+const MIN_SCORED: usize = 20;
+/// Action values that are kept at a time, at most.
+const MAX_VALUES: usize = 20_000_000;
+/// A loss of the policy that chooses at random divides as no less than this.
+const FLOOR: f64 = 1e-9;
+/// Keeps these random numbers apart from those of the imagined tables.
+const WORLD_STREAM: u64 = 1 << 62;
+
+/// What a question about a world is chosen by.
+#[derive(Debug, Clone, Copy)]
+pub struct WorldInputs<'a> {
+    /// Of a lesson about a world.
+    pub posterior: &'a Posterior,
+    /// The world that the posterior names.
+    pub world: &'a World,
+    /// At least all that the posterior takes in.
+    pub log: &'a EvidenceLog,
+    /// On the robot's policy under the posterior.
+    pub bounds: &'a PolicyBounds,
+}
+
+/// The question to ask while the lesson goes on, and the lesson with it; none when there is nothing to ask, or nothing may be.
+///
+/// # Errors
+/// In a sentence: parts that do not fit together, or a world that is too large.
+pub fn world_question(
+    settings: &Settings,
+    inputs: &WorldInputs<'_>,
+    lesson: &LessonStatus,
+) -> Result<Option<(WorldQuery, LessonStatus)>, String> {
+    if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() {
+        return Ok(None);
+    }
+    let query = ask(settings, inputs)?;
+    Ok(query.map(|query| {
+        let questions_asked = lesson.questions_asked.saturating_add(1);
+        let lesson = LessonStatus { query_id: query.id.clone(), questions_asked, ..lesson.clone() };
+        (query, lesson)
+    }))
+}
+
+fn ask(settings: &Settings, inputs: &WorldInputs<'_>) -> Result<Option<WorldQuery>, String> {
+    let WorldInputs { posterior, world, log, bounds } = *inputs;
+    check_posterior(posterior).map_err(|error| error.to_string())?;
+    let (mdp, k) = (&world.mdp, world.feature_names.len());
+    if posterior.world.hash != world.hash || posterior.feature_names.len() != k {
+        return Err("the posterior is about another world".to_owned());
+    }
+    if mdp.n_actions() < 2 {
+        return Ok(None);
+    }
+    let revision = posterior.revision;
+    let rests = Rests::new(log, revision).ok_or("the evidence ends before the posterior")?;
+    let n_draws = posterior.n_draws as usize;
+    let n = SCORED.min(n_draws).min(MAX_VALUES / (mdp.n_states() * mdp.n_actions()));
+    if n < MIN_SCORED.min(n_draws) {
+        return Err(format!("a world of {} states is too large to ask about", mdp.n_states()));
+    }
+    let chosen: Vec<usize> = (0..n).map(|i| i * n_draws / n).collect();
+    let weights: Vec<f64> =
+        chosen.iter().flat_map(|draw| &posterior.draws[draw * k..][..k]).map(|w| f64::from(*w)).collect();
+    let mut rng = ChaCha8Rng::seed_from_u64(settings.seed.unsigned_abs());
+    // An undo that leads back to an earlier state of the lesson leads back to its question.
+    let stream = WORLD_STREAM | rests.n as u64;
+    rng.set_stream(stream);
+    let situations = situations(mdp, &mut rng);
+    let wrong = |error: InquiryError| error.to_string();
+    let optima = DrawnOptima::new(mdp, &weights, 1).map_err(wrong)?;
+    let map = Solver::new(mdp).solve(&posterior.map_weights).policy().to_vec();
+    let scoring =
+        Scoring { settings, inputs, optima: &optima, map: Policy::Deterministic(map.clone()), chosen: &chosen };
+    let steps = usize::try_from(settings.trajectory_steps).unwrap_or(2);
+    let ways = Ways { mdp, map: &map, optima: &optima, steps, seed: settings.seed.unsigned_abs(), stream };
+    let Some(found) = scoring.choose(&ways, &situations, &rests).map_err(wrong)? else { return Ok(None) };
+
+    let Found { subject, gain, per_second, is_held_out, n_candidates } = found;
+    let state = [subject.state];
+    let at_risk = |losses: Losses| values_at_risk(&losses, &scoring.belief()?, bounds.alpha).map(|of| of[0]);
+    let value_at_risk = state_losses(mdp, &optima, &scoring.map, &state).and_then(at_risk).map_err(wrong)?;
+    let uniform_policy = Policy::uniform(mdp);
+    let share = normalised_state_losses(mdp, &optima, &scoring.map, &uniform_policy, FLOOR, &state)
+        .and_then(at_risk)
+        .map_err(wrong)?;
+    let why = match (is_held_out, settings.strategy) {
+        (true, _) => Why::HoldOut,
+        (false, Strategy::Random) => Why::Lot,
+        (false, Strategy::Information) if gain.is_some() => Why::Telling { n: n_candidates },
+        (false, _) => Why::Risk { share, alpha: bounds.alpha, n_states: situations.len() },
+    };
+    let id = world_query_id(revision, subject.kind, subject.state, &short_hash(settings.seed, posterior));
+    let mut trajectories = Vec::new();
+    for (way, name) in subject.ways.iter().zip(["a", "b"]) {
+        trajectories.push(WorldTrajectory {
+            id: format!("{id}-{name}"),
+            states: way.iter().map(|step| number(step.0)).collect(),
+            actions: way.iter().map(|step| number(step.1)).collect(),
+            features: discounted_features(mdp, way).map_err(wrong)?,
+        });
+    }
+    // Which stands on the left says nothing about which the robot would do.
+    if uniform(&mut rng) < 0.5 {
+        trajectories.reverse();
+    }
+    let robust = bounds.policies.iter().find(|policy| policy.id == ROBUST_POLICY).map(|policy| &policy.normalised_loss);
+    let question = world_words::question(world, subject.kind, subject.state);
+    Ok(Some(WorldQuery {
+        header: posterior.header.clone(),
+        id,
+        revision,
+        world: world.reference(),
+        kind: match subject.kind {
+            QuestionKind::Action => WorldQuery::ACTION,
+            QuestionKind::Critique => WorldQuery::CRITIQUE,
+            QuestionKind::Comparison => WorldQuery::COMPARISON,
+        },
+        state: number(subject.state),
+        trajectories,
+        reason: format!("{question} {}", world_words::why(why)),
+        value_at_risk,
+        alpha: bounds.alpha,
+        gain: gain.unwrap_or(f64::NAN),
+        gain_per_second: per_second.unwrap_or(f64::NAN),
+        held_out: is_held_out,
+        n_candidates: u32::try_from(n_candidates).unwrap_or(u32::MAX),
+        loss_bound: robust.filter(|of| of.outcome == RiskBound::BOUND).map_or(f64::NAN, |of| of.bound),
+        epsilon_loss: settings.epsilon_loss,
+    }))
+}
+
+/// A question with why it was chosen.
+struct Found {
+    subject: Subject,
+    /// Nats, where it was chosen by information.
+    gain: Option<f64>,
+    per_second: Option<f64>,
+    is_held_out: bool,
+    n_candidates: usize,
+}
+
+struct Scoring<'a> {
+    settings: &'a Settings,
+    inputs: &'a WorldInputs<'a>,
+    optima: &'a DrawnOptima,
+    map: Policy,
+    /// Numbers of the draws in the posterior.
+    chosen: &'a [usize],
+}
+
+impl Scoring<'_> {
+    fn belief(&self) -> Result<Belief, InquiryError> {
+        Belief::equal(self.optima.n())
+    }
+
+    /// The question of the strategy. Where nothing would change what matters, something is asked all the same: the lesson goes
+    /// on until the bound is small.
+    fn choose(&self, ways: &Ways<'_>, situations: &[usize], rests: &Rests) -> Result<Option<Found>, InquiryError> {
+        let (settings, alpha) = (self.settings, self.inputs.bounds.alpha);
+        let mut kinds = settings.question_kinds.clone();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let risk = inquiry::Strategy::ValueAtRisk { alpha };
+        let ask = |kinds: &[QuestionKind], strategies: &[inquiry::Strategy]| {
+            let mut subjects = Vec::new();
+            for kind in kinds {
+                subjects.extend(ways.subjects(*kind, situations)?);
+            }
+            strategies.iter().find_map(|by| self.select(&subjects, situations, rests, *by).transpose()).transpose()
+        };
+        if settings.strategy == Strategy::Information {
+            let exceeds = inquiry::Strategy::RiskInformation { epsilon: settings.epsilon_loss };
+            return ask(&kinds, &[exceeds, inquiry::Strategy::RewardInformation, risk, inquiry::Strategy::Random]);
+        }
+        // A value at risk is that of a state and says nothing about the kind of question: they take turns.
+        for turn in 0..kinds.len() {
+            let kind = kinds[(rests.n + turn) % kinds.len()];
+            let by: &[_] = match settings.strategy {
+                Strategy::Random => &[inquiry::Strategy::Random],
+                _ => &[risk, inquiry::Strategy::Random],
+            };
+            if let Some(found) = ask(&[kind], by)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The best of the subjects by one score; none when it tells none from another, or there is none.
+    fn select(
+        &self,
+        subjects: &[Subject],
+        situations: &[usize],
+        rests: &Rests,
+        strategy: inquiry::Strategy,
+    ) -> Result<Option<Found>, InquiryError> {
+        if subjects.is_empty() {
+            return Ok(None);
+        }
+        let by_state = matches!(strategy, inquiry::Strategy::ValueAtRisk { .. });
+        let losses =
+            if by_state { state_losses(self.mdp(), self.optima, &self.map, situations)? } else { self.loss()? };
+        let level = (0..2).find(|&level| subjects.iter().any(|of| !rests.holds(level, of.kind, of.state))).unwrap_or(2);
+        let mut questions = Vec::with_capacity(subjects.len());
+        for subject in subjects {
+            questions.push(Question {
+                kind: match subject.kind {
+                    QuestionKind::Action => inquiry::QuestionKind::Action,
+                    QuestionKind::Critique => inquiry::QuestionKind::Critique,
+                    QuestionKind::Comparison => inquiry::QuestionKind::Comparison,
+                },
+                situation: if by_state { subject.situation } else { 0 },
+                answers: self.answers(subject)?,
+                feasible: !rests.holds(level, subject.kind, subject.state),
+            });
+        }
+        let round = Round { belief: self.belief()?, losses, questions, alternatives: None };
+        let selecting = Selecting {
+            strategy,
+            effort: Some(Effort::default()),
+            hold_out_share: self.settings.hold_out_share,
+            seed: self.settings.seed.unsigned_abs(),
+        };
+        let chosen = match select(&round, &selecting, WORLD_STREAM >> 1 | rests.n as u64)? {
+            Selection::Ask(chosen) => chosen,
+            Selection::NothingToLearn | Selection::NothingFeasible => return Ok(None),
+        };
+        Ok(Some(Found {
+            subject: subjects[chosen.question].clone(),
+            gain: (strategy.is_gain()).then_some(chosen.score),
+            per_second: chosen.per_second,
+            is_held_out: chosen.is_hold_out,
+            n_candidates: round.questions.iter().filter(|question| question.feasible).count(),
+        }))
+    }
+
+    /// What the MAP policy loses from where the robot starts, as a share of what choosing at random loses: what ends the lesson.
+    fn loss(&self) -> Result<Losses, InquiryError> {
+        let mdp = self.mdp();
+        let starts: Vec<usize> = (0..mdp.n_states()).filter(|&state| mdp.initial()[state] > 0.0).collect();
+        let mean = |policy: &Policy| -> Result<Vec<f64>, InquiryError> {
+            let losses = state_losses(mdp, self.optima, policy, &starts)?;
+            let of = |draw: usize| -> f64 {
+                starts.iter().enumerate().map(|(row, state)| mdp.initial()[*state] * losses.of(row)[draw]).sum()
+            };
+            Ok((0..self.optima.n()).map(of).collect())
+        };
+        let (own, random) = (mean(&self.map)?, mean(&Policy::uniform(mdp))?);
+        Losses::new(self.optima.n(), own.iter().zip(random).map(|(own, random)| own / random.max(FLOOR)).collect())
+    }
+
+    fn answers(&self, subject: &Subject) -> Result<Answers, InquiryError> {
+        let (betas, wrong_rate) = self.rationality(match subject.kind {
+            QuestionKind::Action => "actions",
+            QuestionKind::Critique => "critiques",
+            QuestionKind::Comparison => "preferences",
+        });
+        let answering = Answering { mdp: self.mdp(), optima: self.optima, betas: &betas, wrong_rate };
+        match subject.ways.as_slice() {
+            [] => answering.action(subject.state),
+            [first, second] => {
+                answering.comparison(first, second, &AnswerModel { wrong_rate, ..AnswerModel::default() })
+            }
+            [way, ..] => answering.critique(way),
+        }
+    }
+
+    /// How rational answers of a kind are by the posterior, for all draws or for each, and their rate of wrong ones.
+    fn rationality(&self, kind: &str) -> (Vec<f64>, f64) {
+        let posterior = self.inputs.posterior;
+        let of = posterior.rationalities.iter().find(|of| of.kind == kind);
+        let usable = |beta: f64| if beta > 0.0 && beta.is_finite() { beta } else { 1.0 };
+        let wrong_rate = of.map(|of| of.wrong_rate).filter(|rate| (0.0..1.0).contains(rate)).unwrap_or(0.0);
+        let n_learned = posterior.learned_kinds.len();
+        let betas = match posterior.learned_kinds.iter().position(|learned| learned == kind) {
+            Some(at) => {
+                let beta =
+                    |draw: &usize| posterior.learned_betas.get(draw * n_learned + at).copied().unwrap_or(f32::NAN);
+                self.chosen.iter().map(|draw| usable(f64::from(beta(draw)))).collect()
+            }
+            None => vec![usable(of.map_or(f64::NAN, |of| of.mean))],
+        };
+        (betas, wrong_rate)
+    }
+
+    fn mdp(&self) -> &Mdp {
+        &self.inputs.world.mdp
+    }
+}
+
+/// Ties an id to the evidence.
+fn short_hash(seed: i64, posterior: &Posterior) -> String {
+    let mut hash = Sha256::new();
+    hash.update(seed.to_le_bytes());
+    hash.update(posterior.revision.to_le_bytes());
+    hash.update(posterior.evidence_hash.as_bytes());
+    hash.finalize().iter().take(4).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A world is checked to be small, so that its numbers fit.
+fn number(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,52 @@
+// What the page says about questions about a world, in English: every sentence of it stands here.
+
+import { cellPlace } from "./grid.js";
+import { roadPlace } from "./road.js";
+
+/** Which state, in words. */
+export function placeWords(world, s) {
+  if (world.picture.kind === "cells") return cellPlace(world, s);
+  return world.picture.kind === "road" ? roadPlace(world, s) : `state ${s}`;
+}
+
+/** "right, right, up" with what lies on the way: "path 3 times, mud once". */
+export function wayWords(world, way) {
+  const counts = new Map();
+  for (const s of way.states) { const f = world.cells[s] ?? null; if (f !== null) counts.set(f, (counts.get(f) ?? 0) + 1); }
+  const over = [...counts].sort((a, b) => b[1] - a[1]).map(([f, n]) => `${world.features[f]}${n > 1 ? ` ×${n}` : ""}`);
+  return { moves: way.actions.filter((_, i) => !world.terminals.includes(way.states[i])).map((a) => world.actions[a]).join(", "), over: over.join(", ") };
+}
+
+export const LETTERS = ["A", "B"];
+export const MARKS = { good: "good", bad: "bad", none: "not marked" };
+export const WORDS = {
+  number: (n) => `Question ${n || ""}`,
+  lesson: "What the robot would do",
+  thinking: "Thinking about the next question…",
+  submit: { action: "Do this here", critique: "That is my judgement", comparison: "That is my choice" },
+  todo: { action: "Choose what to do there, with a button or the arrow keys.", critique: "Mark at least one step; what you leave unmarked says nothing.", comparison: "Watch both, then choose." },
+  sayEqual: "About equal",
+  way: (i) => `${LETTERS[i]} is better`,
+  step: (world, way, i, mark) => `Step ${i + 1} of ${way.states.length}, ${world.actions[way.actions[i]]}, ${placeWords(world, way.states[i])}: ${MARKS[mark]}`,
+  time: (world, ways, t) => ways.map((way, i) => { const at = Math.min(t, way.states.length - 1); return `${LETTERS[i]}: ${placeWords(world, way.states[at])}`; }).join("; "),
+  play: (playing) => (playing ? "Pause" : "Play both"),
+  picture: {
+    action: (world, q) => `The robot is ${placeWords(world, q.state)}.`,
+    critique: (world, q) => `The way in question: ${q.ways[0].states.map((s, i) => `${i + 1}: ${placeWords(world, s)}, ${world.actions[q.ways[0].actions[i]]}`).join("; ")}.`,
+    comparison: (world, q) => q.ways.map((way, i) => `Way ${LETTERS[i]}: ${wayWords(world, way).moves}, over ${wayWords(world, way).over || "nothing named"}.`).join(" "),
+  },
+  hidden: "What I would do is hidden until you have answered.",
+  sending: "Sending…",
+  onItsWay: "On its way to the robot…",
+  takenIn: (revision) => `Taken in as revision ${revision}`,
+  refused: (reason) => `Refused: ${reason}`,
+  takingBack: "Taking it back…",
+  takenBack: (revision) => `Taken back in revision ${revision}`,
+  range: (answered, most) => (answered === null ? "" : most === null ? `${answered} given so far.` : most > 200 ? `${answered} given so far; it may take very many more.` : `${answered} given so far; at this pace about ${most <= 1 ? "one more" : `${Math.max(1, Math.round(most / 2))} to ${Math.round(most * 1.5)} more`}.`),
+  answer: (world, answer) => {
+    if (answer.kind === "actions" && answer.step && answer.step[1] < world.actions.length && answer.step[0] < world.n_states) return `${world.actions[answer.step[1]]} in ${placeWords(world, answer.step[0]).replace(/^in /, "")}`;
+    if (answer.kind === "preference" && answer.said) return { ranked: "Chose the better of two ways", equal: "Two ways are about equal", cant_tell: "Can't tell which of two ways is better" }[answer.said];
+    if (answer.kind === "critique" && answer.marked) return `Marked ${answer.marked[0]} good and ${answer.marked[1]} bad steps`;
+    return undefined;
+  },
+};
