@@ -58,6 +58,12 @@ impl PlaceObjectResult {
     pub const BUSY: u8 = 11;
     /// The constant `UNKNOWN_OBJECT`.
     pub const UNKNOWN_OBJECT: u8 = 12;
+    /// where the arm is now, it touches something
+    pub const START_IN_COLLISION: u8 = 13;
+    /// in reach, but the arm would touch something at each free place
+    pub const GOAL_IN_COLLISION: u8 = 14;
+    /// a joint is beyond its limits
+    pub const OUTSIDE_LIMITS: u8 = 15;
 }
 
 impl crate::Message for PlaceObjectResult {

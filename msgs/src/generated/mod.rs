@@ -243,6 +243,9 @@ uint8 CONTROLLER_FAILED=9        # the controller refused, aborted, timed out or
 uint8 CANCELED=10
 uint8 BUSY=11                    # another object is being placed
 uint8 UNKNOWN_OBJECT=12
+uint8 START_IN_COLLISION=13      # where the arm is now, it touches something
+uint8 GOAL_IN_COLLISION=14       # in reach, but the arm would touch something at each free place
+uint8 OUTSIDE_LIMITS=15          # a joint is beyond its limits
 
 uint8 outcome
 string reason                    # the same in one sentence
@@ -433,6 +436,7 @@ uint8 CHOSEN=0
 uint8 UNREACHABLE=1              # the arm cannot put the target there
 uint8 NO_PATH=2                  # the arm found no way there
 uint8 NEXT_BEST=3                # it could be used, but a better one was
+uint8 BLOCKED=4                  # the arm reaches it, but would touch something
 
 geometry_msgs/Point position     # metres in the table's frame
 float64 mean_reward              # over the draws
@@ -462,6 +466,10 @@ uint8 NO_FREE_PLACE=1
 uint8 UNREACHABLE=2
 uint8 NO_PATH=3
 uint8 NO_ROBOT=4                 # placements stand, but no robot model has been received
+uint8 START_IN_COLLISION=5       # where the arm is now, it touches something
+uint8 GOAL_IN_COLLISION=6        # in reach, but the arm would touch something at each free place
+uint8 JOINTS_UNKNOWN=7           # placements stand, but nothing is heard of a joint that moves the tool
+uint8 OUTSIDE_LIMITS=8           # a joint is beyond its limits
 
 uint8 CELL_FREE=0
 uint8 CELL_OCCUPIED=1
@@ -471,7 +479,7 @@ std_msgs/Header header           # stamp of the posterior
 uint64 revision                  # of the posterior
 string query_id                  # the question this is the robot's guess for; empty: a plan for the table as it is
 TableScene scene                 # what was planned for
-string robot_hash                # SHA-256 of the robot description, hex; empty without one
+string robot_hash                # SHA-256 of the robot description (with SRDF and meshes, if any), hex; empty without one
 sensor_msgs/JointState start     # where the arm stood; empty without a robot
 uint8 outcome
 string reason

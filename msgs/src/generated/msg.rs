@@ -451,6 +451,8 @@ impl PlacementCandidate {
     pub const NO_PATH: u8 = 2;
     /// it could be used, but a better one was
     pub const NEXT_BEST: u8 = 3;
+    /// the arm reaches it, but would touch something
+    pub const BLOCKED: u8 = 4;
 }
 
 impl crate::Message for PlacementCandidate {
@@ -500,7 +502,7 @@ pub struct PlacementPlan {
     pub query_id: std::string::String,
     /// what was planned for (`TableScene`)
     pub scene: super::msg::TableScene,
-    /// SHA-256 of the robot description, hex; empty without one (`string`)
+    /// SHA-256 of the robot description (with SRDF and meshes, if any), hex; empty without one (`string`)
     pub robot_hash: std::string::String,
     /// where the arm stood; empty without a robot (`sensor_msgs/JointState`)
     pub start: super::sensor_msgs::JointState,
@@ -546,6 +548,14 @@ impl PlacementPlan {
     pub const NO_PATH: u8 = 3;
     /// placements stand, but no robot model has been received
     pub const NO_ROBOT: u8 = 4;
+    /// where the arm is now, it touches something
+    pub const START_IN_COLLISION: u8 = 5;
+    /// in reach, but the arm would touch something at each free place
+    pub const GOAL_IN_COLLISION: u8 = 6;
+    /// placements stand, but nothing is heard of a joint that moves the tool
+    pub const JOINTS_UNKNOWN: u8 = 7;
+    /// a joint is beyond its limits
+    pub const OUTSIDE_LIMITS: u8 = 8;
     /// The constant `CELL_FREE`.
     pub const CELL_FREE: u8 = 0;
     /// The constant `CELL_OCCUPIED`.

@@ -84,6 +84,10 @@ pub(crate) fn plan_view(message: &PlacementPlan) -> (PlanView, Option<String>) {
         PlacementPlan::UNREACHABLE => "unreachable",
         PlacementPlan::NO_PATH => "no_path",
         PlacementPlan::NO_ROBOT => "no_robot",
+        PlacementPlan::START_IN_COLLISION => "start_in_collision",
+        PlacementPlan::GOAL_IN_COLLISION => "goal_in_collision",
+        PlacementPlan::JOINTS_UNKNOWN => "joints_unknown",
+        PlacementPlan::OUTSIDE_LIMITS => "outside_limits",
         _ => "unknown",
     };
     let placed = outcome != "no_free_place";

@@ -9,7 +9,7 @@ use apprentice_msgs::msg::PlacementPlan;
 use bus::{ActionRequest, GoalId};
 
 /// A joint that is farther than this from where the plan starts has moved since, radians or metres.
-const SAME_START: f64 = 0.02;
+pub(crate) const SAME_START: f64 = 0.02;
 
 impl PlacementPlanner {
     /// Takes a goal or a cancellation.
@@ -60,6 +60,10 @@ impl PlacementPlanner {
             PlacementPlan::NO_FREE_PLACE => Some(PlaceObjectResult::NO_FREE_PLACE),
             PlacementPlan::UNREACHABLE => Some(PlaceObjectResult::UNREACHABLE),
             PlacementPlan::NO_PATH => Some(PlaceObjectResult::NO_PATH),
+            PlacementPlan::START_IN_COLLISION => Some(PlaceObjectResult::START_IN_COLLISION),
+            PlacementPlan::GOAL_IN_COLLISION => Some(PlaceObjectResult::GOAL_IN_COLLISION),
+            PlacementPlan::JOINTS_UNKNOWN => Some(PlaceObjectResult::STALE_JOINTS),
+            PlacementPlan::OUTSIDE_LIMITS => Some(PlaceObjectResult::OUTSIDE_LIMITS),
             _ => Some(PlaceObjectResult::NO_ROBOT),
         };
         let end = match failed {

@@ -40,6 +40,10 @@ pub(crate) fn outcome(outcome: PlanOutcome) -> u8 {
         PlanOutcome::NoFreePlace => PlanMessage::NO_FREE_PLACE,
         PlanOutcome::Unreachable => PlanMessage::UNREACHABLE,
         PlanOutcome::NoPath => PlanMessage::NO_PATH,
+        PlanOutcome::StartInCollision => PlanMessage::START_IN_COLLISION,
+        PlanOutcome::GoalInCollision => PlanMessage::GOAL_IN_COLLISION,
+        PlanOutcome::JointsUnknown => PlanMessage::JOINTS_UNKNOWN,
+        PlanOutcome::OutsideLimits => PlanMessage::OUTSIDE_LIMITS,
         PlanOutcome::NoRobot => PlanMessage::NO_ROBOT,
     }
 }
@@ -63,6 +67,7 @@ pub(crate) fn candidate(candidate: Candidate) -> PlacementCandidate {
         verdict: match candidate.verdict {
             Verdict::Chosen => PlacementCandidate::CHOSEN,
             Verdict::Unreachable => PlacementCandidate::UNREACHABLE,
+            Verdict::Blocked => PlacementCandidate::BLOCKED,
             Verdict::NoPath => PlacementCandidate::NO_PATH,
             Verdict::NextBest => PlacementCandidate::NEXT_BEST,
         },

@@ -5,10 +5,12 @@ mod asked;
 mod carrying;
 mod convert;
 mod node;
+mod robot;
 mod run;
 mod settings;
 
 pub use carrying::Deed;
 pub use node::{Event, Output, PlacementPlanner, Request, is_task};
+pub use robot::{RobotFiles, RobotFilesError, RobotRefused};
 pub use run::run;
 pub use settings::Settings;

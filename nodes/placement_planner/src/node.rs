@@ -1,7 +1,8 @@
 //! The node as a state machine: posterior, question, table, robot and lesson in; guess, plan and motion out.
 
+use crate::asked::SAME_START;
 use crate::carrying::{Carrier, Deed};
-use crate::{Settings, convert};
+use crate::{RobotFiles, Settings, convert};
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::control_msgs::FollowJointTrajectory;
@@ -11,9 +12,8 @@ use apprentice_msgs::msg::{
 use apprentice_msgs::sensor_msgs::JointState;
 use bus::{ActionEvent, ActionRequest};
 use exchange::{check_posterior, is_about_a_table, is_about_scene, scene_from_message};
-use placement::{LossBatch, MAP_SIDE, ManipulatorError, Planner};
+use placement::{LossBatch, MAP_SIDE, Planner};
 use scene::Scene;
-use sha2::{Digest, Sha256};
 
 /// Perception is this exact: an object that moved less stands where it stood, metres.
 const SAME_PLACE_M: f64 = 0.01;
@@ -31,6 +31,8 @@ pub enum Event {
     Lesson(LessonStatus),
     /// A URDF.
     RobotDescription(String),
+    /// An SRDF: which of its links may touch.
+    RobotSemantics(String),
     /// Where the arm is.
     Joints(JointState),
     /// Somebody asks for an object to be placed, or not any more.
@@ -80,8 +82,11 @@ pub struct Request<'a> {
 pub struct PlacementPlanner {
     pub(crate) settings: Settings,
     pub(crate) planner: Planner,
-    robot_hash: String,
-    refused_robot: Option<String>,
+    pub(crate) files: RobotFiles,
+    pub(crate) robot_hash: String,
+    /// As last received, whether it could be used or not.
+    urdf: Option<String>,
+    semantics: Option<String>,
     pub(crate) joints: Vec<(String, f64)>,
     pub(crate) joints_at: Option<Time>,
     joints_wrong: bool,
@@ -96,14 +101,22 @@ pub struct PlacementPlanner {
 }
 
 impl PlacementPlanner {
-    /// A planner that has seen nothing.
+    /// A planner that has seen nothing, and takes robots that need no files.
     pub fn new(settings: Settings) -> Self {
+        let files = RobotFiles::none(&settings);
+        Self::with_files(settings, files)
+    }
+
+    /// A planner that has seen nothing, with the files that the settings name.
+    pub fn with_files(settings: Settings, files: RobotFiles) -> Self {
         Self {
             planner: Planner::new(settings.motion()),
             carrier: Carrier::new(!settings.controller.is_empty(), settings.patience_s),
             settings,
+            files,
             robot_hash: String::new(),
-            refused_robot: None,
+            urdf: None,
+            semantics: None,
             joints: Vec::new(),
             joints_at: None,
             joints_wrong: false,
@@ -163,7 +176,20 @@ impl PlacementPlanner {
                 self.taught = taught;
                 self.plan = None;
             }
-            Event::RobotDescription(urdf) => return self.robot(now, &urdf),
+            Event::RobotDescription(urdf) => {
+                if self.urdf.as_ref() == Some(&urdf) {
+                    return Vec::new();
+                }
+                self.urdf = Some(urdf);
+                return self.take_robot(now);
+            }
+            Event::RobotSemantics(srdf) => {
+                if self.semantics.as_ref() == Some(&srdf) || self.files.has_srdf() {
+                    return Vec::new();
+                }
+                self.semantics = Some(srdf);
+                return self.take_robot(now);
+            }
             Event::Joints(joints) => return self.take_joints(now, &joints),
             Event::Place(request) => return self.place(now, request),
             Event::Controller(event) => return deeds(self.carrier.hear(now, *event)),
@@ -176,13 +202,6 @@ impl PlacementPlanner {
             }
         }
         self.update(now)
-    }
-
-    /// Takes a robot description, in place of an earlier one; plans name it by its hash.
-    pub fn set_robot(&mut self, urdf: &str) -> Result<(), ManipulatorError> {
-        self.planner.set_robot(urdf)?;
-        self.robot_hash = Sha256::digest(urdf.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
-        Ok(())
     }
 
     /// Plans: a function of the settings, the robot and the request.
@@ -225,28 +244,31 @@ impl PlacementPlanner {
         })
     }
 
-    fn robot(&mut self, now: Time, urdf: &str) -> Vec<Output> {
-        let hash: String = Sha256::digest(urdf.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
-        if hash == self.robot_hash || self.refused_robot.as_ref() == Some(&hash) {
-            return Vec::new();
+    fn take_robot(&mut self, now: Time) -> Vec<Output> {
+        let Some(urdf) = self.urdf.take() else { return Vec::new() };
+        let (semantics, before) = (self.semantics.take(), self.robot_hash.clone());
+        let taken = self.set_robot(&urdf, semantics.as_deref());
+        (self.urdf, self.semantics) = (Some(urdf), semantics);
+        let told = match taken {
+            Ok(told) => told,
+            Err(error) => return vec![Output::Warn(format!("the robot description is ignored: {error}"))],
+        };
+        let mut outputs: Vec<Output> =
+            told.into_iter().map(|text| Output::Warn(format!("robot description: {text}"))).collect();
+        if self.robot_hash != before {
+            (self.guess, self.plan) = (None, None);
+            outputs.extend(self.update(now));
         }
-        if let Err(error) = self.set_robot(urdf) {
-            self.refused_robot = Some(hash);
-            return vec![Output::Warn(format!("the robot description is ignored: {error}"))];
-        }
-        (self.guess, self.plan) = (None, None);
-        self.update(now)
+        outputs
     }
 
     fn take_joints(&mut self, now: Time, message: &JointState) -> Vec<Output> {
         match convert::joints(message) {
             Ok(joints) => {
-                let first = self.joints.is_empty();
                 self.joints = joints;
                 self.joints_at = Some(now);
                 self.joints_wrong = false;
-                if first && !self.joints.is_empty() {
-                    // What was planned from an unknown position is planned anew.
+                if self.rests_on_another_start() {
                     (self.guess, self.plan) = (None, None);
                     return self.update(now);
                 }
@@ -258,6 +280,21 @@ impl PlacementPlanner {
                 vec![Output::Warn(format!("joint states are ignored: {reason}"))]
             }
         }
+    }
+
+    /// Whether a plan or guess failed because of where the arm was, or was not known to be, and that changed since.
+    fn rests_on_another_start(&self) -> bool {
+        [&self.plan, &self.guess].into_iter().flatten().any(|plan| match plan.outcome {
+            PlanMessage::JOINTS_UNKNOWN => {
+                self.planner.manipulator().is_some_and(|arm| arm.unheard(&self.joints).is_empty())
+            }
+            PlanMessage::START_IN_COLLISION | PlanMessage::OUTSIDE_LIMITS => {
+                let was = plan.start.name.iter().zip(&plan.start.position);
+                let now_at = |name| self.joints.iter().find(|(joint, _)| joint == name).map(|(_, at)| *at);
+                was.into_iter().any(|(name, at)| now_at(name).is_some_and(|now_at| (now_at - at).abs() > SAME_START))
+            }
+            _ => false,
+        })
     }
 
     /// Makes what is missing and can be made.

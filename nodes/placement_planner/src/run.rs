@@ -1,6 +1,6 @@
 //! The node on the graph.
 
-use crate::{Deed, Event, Output, PlacementPlanner, Settings};
+use crate::{Deed, Event, Output, PlacementPlanner, RobotFiles, Settings};
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::control_msgs::FollowJointTrajectory;
 use apprentice_msgs::msg::PlacementPlan;
@@ -15,6 +15,7 @@ const TICK: Duration = Duration::from_millis(100);
 /// Runs the node until it is asked to stop.
 pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let settings: Settings = arguments.settings()?;
+    let files = RobotFiles::open(&settings).map_err(|error| NodeError::Start(error.to_string()))?;
     let mut bus = Bus::open(graph, arguments, &settings)?;
     let guess = bus.publisher::<PlacementPlan>("guess", Qos::State)?;
     let plan = bus.publisher::<PlacementPlan>("plan", Qos::State)?;
@@ -25,6 +26,8 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     bus.subscribe("lesson", Qos::State, Event::Lesson)?;
     let urdf = |message: std_msgs::String| Event::RobotDescription(message.data);
     bus.subscribe("/robot_description", Qos::State, urdf)?;
+    let srdf = |message: std_msgs::String| Event::RobotSemantics(message.data);
+    bus.subscribe("/robot_description_semantic", Qos::State, srdf)?;
     bus.subscribe("/joint_states", Qos::Stream, Event::Joints)?;
     let place = bus.action_server::<PlaceObject>("place_object", Event::Place)?;
     let controller = match settings.controller.as_str() {
@@ -33,7 +36,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     };
     bus.every(TICK, || Event::Tick { controller_is_there: false });
     bus.every(Duration::from_secs_f64(settings.republish_period_s), || Event::Republish);
-    let mut node = PlacementPlanner::new(settings);
+    let mut node = PlacementPlanner::with_files(settings, files);
     while let Some((now, event)) = bus.next() {
         let event = match event {
             Event::Tick { .. } => {

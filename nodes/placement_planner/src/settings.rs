@@ -1,7 +1,7 @@
 //! Parameters of the node.
 
 use bus::{NodeSettings, ParameterSpec, Range};
-use placement::MotionSettings;
+use placement::{MotionSettings, TablePose};
 use serde::{Deserialize, Serialize};
 
 /// Parameters of `placement_planner`.
@@ -18,6 +18,17 @@ pub struct Settings {
     pub threads: i64,
     /// The link between the fingertips, whose z axis points out of the hand.
     pub tool_link: String,
+    /// Where the origin of the table's frame is in the robot's root link: x, y, z, metres; empty: a fixed link of the robot
+    /// has the frame's name.
+    pub table_position_m: Vec<f64>,
+    /// How the table is turned about the vertical there, radians.
+    pub table_yaw_rad: f64,
+    /// Folders that hold the packages of the robot's meshes, or are such packages; nothing else is read.
+    pub package_paths: Vec<String>,
+    /// A file with the robot's SRDF; empty: the topic `/robot_description_semantic`, if anything is said there.
+    pub srdf: String,
+    /// What to do about a mesh that is not found: `refuse` the robot, or `bound` the link by a box.
+    pub missing_meshes: String,
     /// Things nearer than this count as touching, metres.
     pub margin_m: f64,
     /// How far above its place the target is brought before it is lowered, metres.
@@ -46,6 +57,11 @@ impl Default for Settings {
             alpha: 0.95,
             threads: 0,
             tool_link: motion.tool_link,
+            table_position_m: Vec::new(),
+            table_yaw_rad: 0.0,
+            package_paths: Vec::new(),
+            srdf: String::new(),
+            missing_meshes: "refuse".to_owned(),
             margin_m: motion.margin_m,
             approach_m: motion.approach_m,
             speed: motion.speed,
@@ -87,6 +103,33 @@ impl NodeSettings for Settings {
             name: "tool_link",
             about: "link between the fingertips, whose z axis points out of the hand",
             range: Range::Any,
+        },
+        ParameterSpec {
+            name: "table_position_m",
+            about: "where the origin of the table's frame is in the robot's root link: x, y, z, metres; empty: a fixed link of \
+                    the robot has the frame's name",
+            range: Range::Float { min: -100.0, max: 100.0 },
+        },
+        ParameterSpec {
+            name: "table_yaw_rad",
+            about: "how the table is turned about the vertical there, radians",
+            range: Range::Float { min: -7.0, max: 7.0 },
+        },
+        ParameterSpec {
+            name: "package_paths",
+            about: "folders that hold the packages of the robot's meshes, or are such packages; nothing else is read",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "srdf",
+            about: "file with the robot's SRDF: which links may touch; empty: as said on /robot_description_semantic, else \
+                    those that always do",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "missing_meshes",
+            about: "what to do about a mesh that is not found: `refuse` the robot, or `bound` the link by a box that is guessed",
+            range: Range::Choice(&["refuse", "bound"]),
         },
         ParameterSpec {
             name: "margin_m",
@@ -132,11 +175,12 @@ impl NodeSettings for Settings {
     ];
 
     fn check(&self) -> Result<(), String> {
-        let fine = (1..=128).contains(&self.tool_link.len());
-        if fine {
-            Ok(())
-        } else {
-            Err(format!("tool_link has {} characters; 1 to 128 are allowed", self.tool_link.len()))
+        if !(1..=128).contains(&self.tool_link.len()) {
+            return Err(format!("tool_link has {} characters; 1 to 128 are allowed", self.tool_link.len()));
+        }
+        match self.table_position_m.len() {
+            0 | 3 => Ok(()),
+            got => Err(format!("table_position_m has {got} entries; it must have 3 (x, y, z), or none")),
         }
     }
 
@@ -151,6 +195,10 @@ impl Settings {
         MotionSettings {
             choice: self.choice.parse().unwrap_or_default(),
             tool_link: self.tool_link.clone(),
+            table: match *self.table_position_m.as_slice() {
+                [x, y, z] => Some(TablePose { position_m: [x, y, z], yaw_rad: self.table_yaw_rad }),
+                _ => None,
+            },
             margin_m: self.margin_m,
             approach_m: self.approach_m,
             speed: self.speed,

@@ -1,93 +1,14 @@
 //! What is planned when, that nothing moves before its time, and that a plan is a function of what it names.
 
+mod support;
+
 use apprentice_msgs::action::PlaceObjectResult;
-use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::msg::{LessonStatus, PlacementPlan, PlacementQuery, Posterior, TableScene};
+use apprentice_msgs::msg::{LessonStatus, PlacementPlan, Posterior};
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::to_cdr;
 use bus::testing::check_parameters;
-use exchange::scene_to_message;
 use placement_planner::{Deed, Event, Output, PlacementPlanner, Request, Settings};
-use scene::{Object, Point, Rbf, Scene, Shape};
-
-const URDF: &str = include_str!("../../../config/urdf/table_arm.urdf");
-
-fn object(id: &str, x: f64, y: f64, radius_m: f64) -> Object {
-    Object {
-        id: id.into(),
-        label: id.into(),
-        shape: Shape::Cylinder { radius_m, height_m: 0.1 },
-        position_m: Point::new(x, y),
-        yaw_rad: 0.0,
-        supports: false,
-    }
-}
-
-fn table() -> Scene {
-    Scene {
-        id: "task".into(),
-        frame: "table".into(),
-        width_m: 1.0,
-        depth_m: 1.0,
-        objects: vec![object("cup", 0.2, 0.25, 0.05)],
-        target: Object { shape: Shape::Cylinder { radius_m: 0.04, height_m: 0.2 }, ..object("vase", 0.0, 0.0, 0.04) },
-    }
-}
-
-fn scene() -> TableScene {
-    scene_to_message(&table(), Time::default())
-}
-
-/// All draws want the middle.
-fn posterior(revision: u64) -> Posterior {
-    let weights = |k: usize| if k == 5 { 1.0 } else { 0.0 };
-    Posterior {
-        revision,
-        task: scene(),
-        feature_names: Rbf::names(&table()),
-        n_chains: 4,
-        n_draws: 8,
-        draws: (0..80).map(|i| weights(i % 10) as f32).collect(),
-        map_weights: (0..10).map(weights).collect(),
-        ..Posterior::default()
-    }
-}
-
-fn query(id: &str, revision: u64) -> PlacementQuery {
-    PlacementQuery { id: id.into(), revision, scene: scene(), ..PlacementQuery::default() }
-}
-
-fn lesson(state: u8, revision: u64) -> Event {
-    Event::Lesson(LessonStatus { state, revision, ..LessonStatus::default() })
-}
-
-fn joints() -> JointState {
-    let names = ["shoulder_yaw", "shoulder_pitch", "elbow", "forearm_roll", "wrist_pitch", "wrist_roll", "finger_left"];
-    JointState {
-        name: names.map(String::from).to_vec(),
-        position: vec![0.0, -0.6, 2.2, 0.0, 1.54, 0.0, 0.05],
-        ..JointState::default()
-    }
-}
-
-fn step(node: &mut PlacementPlanner, event: Event) -> Vec<Output> {
-    node.step(Time::default(), event)
-}
-
-/// A planner with robot and joints.
-fn ready() -> PlacementPlanner {
-    let mut node = PlacementPlanner::new(Settings::default());
-    assert!(step(&mut node, Event::Joints(joints())).is_empty());
-    assert!(step(&mut node, Event::RobotDescription(URDF.into())).is_empty());
-    node
-}
-
-fn only_plan(outputs: &[Output]) -> PlacementPlan {
-    match outputs {
-        [Output::Plan(plan)] => (**plan).clone(),
-        other => panic!("a plan was expected, got {other:?}"),
-    }
-}
+use support::{URDF, joints, lesson, only_plan, posterior, query, ready, scene, step};
 
 #[test]
 fn parameters_are_documented() {
@@ -174,7 +95,7 @@ fn a_plan_is_a_function_of_what_it_names() {
     step(&mut node, Event::Scene(Box::new(scene())));
     let plan = only_plan(&step(&mut node, Event::Posterior(Box::new(posterior(1)))));
     let mut other = PlacementPlanner::new(Settings { threads: 1, ..Settings::default() });
-    other.set_robot(URDF).expect("the robot is right");
+    other.set_robot(URDF, None).expect("the robot is right");
     let request = Request {
         posterior: &posterior(1),
         query_id: &plan.query_id,

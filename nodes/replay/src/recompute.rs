@@ -10,9 +10,9 @@ use apprentice_msgs::msg::{
 use bus::NodeSettings;
 use exchange::{World, is_about_a_table, world_from_message};
 use performance_bounds::{PerformanceBoundsNode, judge_policies};
-use placement_planner::{PlacementPlanner, Request, is_task};
+use placement_planner::{PlacementPlanner, Request, RobotFiles, is_task};
 use reward_posterior::{Entry, RewardPosterior};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the nodes say to one revision.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +50,7 @@ pub struct Lesson {
     pub(crate) query: Option<active_query::Settings>,
     planners: BTreeMap<String, PlacementPlanner>,
     robots: BTreeMap<String, String>,
+    semantics: BTreeSet<String>,
     pub(crate) worlds: BTreeMap<String, World>,
 }
 
@@ -111,6 +112,7 @@ pub fn recompute(
         query,
         planners: BTreeMap::new(),
         robots: recording.robots.clone(),
+        semantics: recording.semantics.clone(),
         worlds: worlds.map(|world| (world.hash.clone(), world)).collect(),
     })
 }
@@ -193,11 +195,11 @@ impl Lesson {
             return Err(wrong("a plan for a table that the lesson is not about".into()));
         };
         if !self.planners.contains_key(&recorded.robot_hash) {
-            let mut planner = PlacementPlanner::new(settings.clone());
-            if !recorded.robot_hash.is_empty() {
-                let urdf = self.robots.get(&recorded.robot_hash);
-                let urdf = urdf.ok_or_else(|| wrong("its robot description is not in the bag".into()))?;
-                planner.set_robot(urdf).map_err(|reason| wrong(reason.to_string()))?;
+            let files = RobotFiles::open(settings).map_err(|error| wrong(error.to_string()))?;
+            let mut planner = PlacementPlanner::with_files(settings.clone(), files);
+            if !self.takes(&mut planner, &recorded.robot_hash) {
+                let reason = "its robot description is not in the bag, or its meshes or SRDF are not what they were";
+                return Err(wrong(reason.into()));
             }
             self.planners.insert(recorded.robot_hash.clone(), planner);
         }
@@ -212,6 +214,21 @@ impl Lesson {
                 && is_task(&recorded.scene, &round.posterior),
         };
         planner.plan(&request).map_err(wrong)
+    }
+
+    /// Gives a planner the robot of a hash: a description with or without one of the recorded SRDFs.
+    fn takes(&self, planner: &mut PlacementPlanner, hash: &str) -> bool {
+        if hash.is_empty() {
+            return true;
+        }
+        // Most are named by their text alone.
+        let first = self.robots.get(hash).into_iter();
+        first.chain(self.robots.values()).any(|urdf| {
+            let with = self.semantics.iter().map(|text| Some(text.as_str()));
+            std::iter::once(None)
+                .chain(with)
+                .any(|semantics| planner.set_robot(urdf, semantics).is_ok() && planner.robot_hash() == hash)
+        })
     }
 
     /// Recorded bounds on policies computed anew, from the set that they judge.

@@ -48,6 +48,8 @@ pub struct Recording {
     pub plan: Recorded<PlacementPlan>,
     /// Robot descriptions by the SHA-256 of their text, hex.
     pub robots: BTreeMap<String, String>,
+    /// Their SRDF texts, as often as they differ.
+    pub semantics: BTreeSet<String>,
 }
 
 /// Recorded messages of one type: revision → distinct messages with their bytes, in recorded order.
@@ -62,12 +64,16 @@ impl Recording {
         namespace: Option<&str>,
     ) -> Result<Self, ReplayError> {
         let mut all: BTreeMap<String, Self> = BTreeMap::new();
-        let mut robots = BTreeMap::new();
+        let (mut robots, mut semantics) = (BTreeMap::new(), BTreeSet::new());
         for (index, (topic, type_name, cdr)) in messages.into_iter().enumerate() {
             if type_name == std_msgs::String::TYPE && topic.ends_with("/robot_description") {
                 let text = decode::<std_msgs::String>(topic, index, cdr)?.data;
                 let hash = Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
                 robots.insert(hash, text);
+                continue;
+            }
+            if type_name == std_msgs::String::TYPE && topic.ends_with("/robot_description_semantic") {
+                semantics.insert(decode::<std_msgs::String>(topic, index, cdr)?.data);
                 continue;
             }
             if !type_name.starts_with("apprentice_msgs/msg/") {
@@ -86,7 +92,7 @@ impl Recording {
             1 => {
                 let of = with_evidence.iter().next().expect("there is one");
                 let mut one = all.remove(of).expect("it was found there");
-                one.robots = robots;
+                (one.robots, one.semantics) = (robots, semantics);
                 Ok(one)
             }
             _ => Err(ReplayError::SeveralSessions(with_evidence.into_iter().collect())),

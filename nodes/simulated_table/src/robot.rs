@@ -1,6 +1,6 @@
 //! What the simulated arm needs to know of its URDF: the joints that move, and the root link.
 
-use arm::{Robot, UrdfError};
+use arm::{MissingMesh, ReadOptions, Robot, UrdfError};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -83,7 +83,10 @@ impl RobotModel {
     /// # Errors
     /// When the text is no usable URDF, or the start positions do not fit its joints; an empty list fits always.
     pub fn new(urdf: String, start_positions: &[f64]) -> Result<Self, RobotError> {
-        let robot = Robot::from_urdf(&urdf)?;
+        // Where the joints are is all that is told: collisions play no part, so no mesh is looked for.
+        let mut no_mesh = |_: &str| Err("it is not needed".to_owned());
+        let options = ReadOptions { missing: MissingMesh::Bound, ..ReadOptions::default() };
+        let robot = Robot::read(&urdf, &mut no_mesh, &options)?;
         let joints: Vec<JointModel> = (0..robot.dof())
             .map(|i| robot.driven_joint(i))
             .map(|joint| JointModel { name: joint.name.clone(), lower: joint.limits.lower, upper: joint.limits.upper })

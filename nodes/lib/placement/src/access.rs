@@ -11,16 +11,20 @@ pub(crate) struct Access<'a> {
     pub cell: Cell<'a>,
     scene: &'a Scene,
     grid: Grid,
+    reach: &'a ReachMap,
+    /// Where the joints are that do not move the tool.
+    current: Vec<f64>,
     configurations: Vec<Option<Vec<f64>>>,
 }
 
 impl<'a> Access<'a> {
     /// Checks the free cells of a scene against its objects. `current` sets the joints that do not move the tool.
-    pub fn new(cell: Cell<'a>, scene: &'a Scene, reach: &ReachMap, free: &[bool], current: &[f64]) -> Self {
+    pub fn new(cell: Cell<'a>, scene: &'a Scene, reach: &'a ReachMap, free: &[bool], current: &[f64]) -> Self {
         let grid = Grid::midpoints(reach.side());
-        let mut access = Self { cell, scene, grid, configurations: vec![None; free.len()] };
+        let (current, configurations) = (current.to_vec(), vec![None; free.len()]);
+        let mut access = Self { cell, scene, grid, reach, current, configurations };
         for i in (0..free.len()).filter(|&i| free[i]) {
-            let start = reach.configuration(i).map(|known| access.with_others_of(known, current));
+            let start = reach.configuration(i).map(|known| access.with_others_of(known));
             access.configurations[i] = start.and_then(|start| access.solve(access.at_m(i), &start, RESTARTS));
         }
         access
@@ -34,6 +38,13 @@ impl<'a> Access<'a> {
     /// Whether a cell can be used.
     pub fn is_open(&self, cell: usize) -> bool {
         self.configurations[cell].is_some()
+    }
+
+    /// What keeps the arm from using a cell that it would reach on an empty table: two names, or none where the touch is
+    /// only on the way up. `None` for a cell that is out of reach or open.
+    pub fn blocked_by(&self, cell: usize) -> Option<Option<(String, String)>> {
+        let known = self.reach.configuration(cell).filter(|_| !self.is_open(cell))?;
+        Some(self.cell.contact(&self.with_others_of(known)))
     }
 
     /// A configuration that puts the target at any point, started from the nearest cell that can be used or its neighbour.
@@ -65,8 +76,8 @@ impl<'a> Access<'a> {
         self.cell.place(at_m, self.base_m(at_m), start, restarts)
     }
 
-    fn with_others_of(&self, known: &[f64], current: &[f64]) -> Vec<f64> {
-        let mut q = current.to_vec();
+    fn with_others_of(&self, known: &[f64]) -> Vec<f64> {
+        let mut q = self.current.clone();
         for &entry in &self.cell.manipulator.chain.entries {
             q[entry] = known[entry];
         }

@@ -9,6 +9,8 @@ pub enum Verdict {
     Chosen,
     /// The arm cannot put the target there.
     Unreachable,
+    /// The arm reaches it, but would touch something.
+    Blocked,
     /// The arm found no way there.
     NoPath,
     /// It could be used, but a better one was.

@@ -23,6 +23,6 @@ pub use losses::{LossBatch, SceneLosses, placement_losses, placement_optima};
 pub use manipulator::{Manipulator, ManipulatorError};
 pub use plan::{CellState, MAP_SIDE, PlacementPlan, PlanOutcome, Planner};
 pub use reach::ReachMap;
-pub use settings::MotionSettings;
+pub use settings::{MotionSettings, TablePose};
 pub use tail::cvar;
 pub use trajectory::{Trajectory, TrajectoryPoint};

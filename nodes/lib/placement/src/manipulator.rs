@@ -1,7 +1,7 @@
 //! An arm as this crate uses it: a robot, the chain to its tool, and how it holds the target over a table.
 
-use crate::MotionSettings;
 use crate::settings::{ABOVE_MARGIN_M, LEAST_APPROACH_M};
+use crate::{MotionSettings, TablePose};
 use arm::{
     AxisGoal, Chain, ChainError, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Obstacle,
     Placed, Point3, Robot, Solid, Translation3, UrdfError, Vector3, World, about_z, solve,
@@ -18,6 +18,9 @@ const SLOWEST: f64 = 1e-3;
 
 /// An endless joint is taken to be no farther than this from 0, radians.
 const FAR: f64 = 1e3;
+
+/// A joint may be this far beyond its limits and count as at them, radians or metres: encoders are no more exact.
+const BEYOND: f64 = 5e-3;
 
 /// Why an arm cannot be used.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -107,6 +110,30 @@ impl Manipulator {
         self.chain.joint_names(&self.robot).map(String::from).collect()
     }
 
+    /// Joints that move the tool of which nothing is said, in the order of a trajectory.
+    pub fn unheard(&self, joints: &[(String, f64)]) -> Vec<String> {
+        let heard = |name: &String| joints.iter().any(|(joint, position)| joint == name && position.is_finite());
+        self.joint_names().into_iter().filter(|name| !heard(name)).collect()
+    }
+
+    /// The first joint that moves the tool and is beyond its limits by more than [`BEYOND`], in words.
+    pub(crate) fn outside(&self, joints: &[(String, f64)]) -> Option<String> {
+        self.chain.entries.iter().find_map(|&entry| {
+            let joint = self.robot.driven_joint(entry);
+            let (lower, upper) = (joint.limits.lower.max(-FAR), joint.limits.upper.min(FAR));
+            let (_, at) = joints.iter().find(|(name, _)| *name == joint.name)?;
+            let beyond = *at < lower - BEYOND || *at > upper + BEYOND;
+            beyond.then(|| format!("joint '{}' is at {at:.3}, outside its limits {lower:.3} to {upper:.3}", joint.name))
+        })
+    }
+
+    /// Joints that move the tool by name but have nowhere to go.
+    pub(crate) fn stuck(&self) -> Vec<&str> {
+        let joints = self.chain.entries.iter().map(|&entry| self.robot.driven_joint(entry));
+        let stuck = joints.filter(|joint| joint.limits.upper - joint.limits.lower < BEYOND);
+        stuck.map(|joint| joint.name.as_str()).collect()
+    }
+
     /// A configuration of the whole robot from named positions, clamped to limits: what is not named, or not finite,
     /// rests. Names that are none of the robot's are ignored.
     pub fn configuration(&self, joints: &[(String, f64)]) -> Vec<f64> {
@@ -122,10 +149,20 @@ impl Manipulator {
         q
     }
 
-    /// The arm at the table of a scene with the target in hand, `None` when no link of the robot is the scene's frame or
-    /// that link moves. Objects are left out unless `with_objects`.
+    fn root_from_table(&self, frame: &str) -> Option<Isometry3<f64>> {
+        match (self.robot.link_index(frame), self.settings.table) {
+            (Some(link), _) => self.robot.fixed_pose(link),
+            (None, Some(TablePose { position_m: [x, y, z], yaw_rad })) => {
+                Some(Isometry3::from_parts(Translation3::new(x, y, z), about_z(yaw_rad)))
+            }
+            (None, None) => None,
+        }
+    }
+
+    /// The arm at the table of a scene with the target in hand, `None` when no link of the robot is the scene's frame (and the
+    /// settings do not say where it is) or that link moves. Objects are left out unless `with_objects`.
     pub(crate) fn at_table(&self, scene: &Scene, with_objects: bool) -> Option<Cell<'_>> {
-        let root_from_table = self.robot.fixed_pose(self.robot.link_index(&scene.frame)?)?;
+        let root_from_table = self.root_from_table(&scene.frame)?;
         let mut world = World::new();
         let half_extents = [0.5 * scene.width_m, 0.5 * scene.depth_m, 0.5 * SLAB_M];
         let middle = Translation3::new(half_extents[0], half_extents[1], -half_extents[2]);

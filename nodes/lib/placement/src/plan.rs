@@ -8,6 +8,7 @@ use crate::manipulator::{Manipulator, ManipulatorError};
 use crate::reach::ReachMap;
 use crate::trajectory::Trajectory;
 use crate::{Choice, MotionSettings, motion};
+use arm::{Exclusions, Robot};
 use scene::{Field, Grid, Point, Rbf, Scene};
 
 /// Cells per axis of the maps.
@@ -30,6 +31,14 @@ pub enum PlanOutcome {
     NoFreePlace,
     /// The arm reaches no free place.
     Unreachable,
+    /// It reaches some, but would touch something at each.
+    GoalInCollision,
+    /// Where the arm is now, it touches something.
+    StartInCollision,
+    /// Nothing is heard of a joint that moves the tool.
+    JointsUnknown,
+    /// Such a joint is beyond its limits.
+    OutsideLimits,
     /// No collision-free motion was found.
     NoPath,
     /// Placements stand, but no robot is known, or it does not stand at this table.
@@ -92,7 +101,16 @@ impl Planner {
     /// # Errors
     /// A robot that cannot be used; the earlier one stays.
     pub fn set_robot(&mut self, urdf: &str) -> Result<(), ManipulatorError> {
-        self.manipulator = Some(Manipulator::from_urdf(urdf, self.settings.clone())?);
+        self.set_arm(Robot::from_urdf(urdf)?, None)
+    }
+
+    /// Takes a robot that was read already, in place of an earlier one, with the pairs of its links that may touch; without such
+    /// a list those that always do.
+    ///
+    /// # Errors
+    /// A robot that cannot be used; the earlier one stays.
+    pub fn set_arm(&mut self, robot: Robot, exclusions: Option<&Exclusions>) -> Result<(), ManipulatorError> {
+        self.manipulator = Some(Manipulator::new(robot, exclusions, self.settings.clone())?);
         self.reach = None;
         Ok(())
     }
@@ -102,7 +120,8 @@ impl Planner {
         self.manipulator.as_ref()
     }
 
-    /// Plans for one scene. `joints` are the arm's positions by name; what is missing rests at the position nearest 0.
+    /// Plans for one scene. `joints` are the arm's positions by name. Without those of all joints that move the tool there are
+    /// placements, but no trajectory; other joints rest at the position nearest 0 when they are missing.
     ///
     /// # Panics
     /// When the numbers of draws, weights and objects do not fit together.
@@ -136,7 +155,7 @@ impl Planner {
             task.choose(&mut plan, None);
             plan.outcome = PlanOutcome::NoRobot;
             plan.reason = format!(
-                "the robot '{}' has no fixed link '{}', the frame of the table; join one to its base by a fixed joint",
+                "the robot '{}' has no fixed link '{}', the frame of the table; join one to its base by a fixed joint, or say where the table is",
                 manipulator.robot.name, scene.frame
             );
             return plan;
@@ -149,7 +168,7 @@ impl Planner {
         let access = Access::new(cell, scene, reach, field.free(), &current);
         plan.cell_state =
             cells(field.free(), |i| if access.is_open(i) { CellState::Free } else { CellState::Unreachable });
-        task.finish(&mut plan, &access, &current);
+        task.finish(&mut plan, &access, joints, &current);
         plan
     }
 }
@@ -165,30 +184,63 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    fn finish(&self, plan: &mut PlacementPlan, access: &Access, current: &[f64]) {
+    fn finish(&self, plan: &mut PlacementPlan, access: &Access, joints: &[(String, f64)], current: &[f64]) {
         let label = &self.scene.target.label;
+        let manipulator = access.cell.manipulator;
         if !plan.cell_state.contains(&CellState::Free) {
-            // Where it would go, if the arm were another.
+            // Where it would go, if the arm were another or stood elsewhere.
             self.choose(plan, None);
             for candidate in &mut plan.candidates {
-                candidate.verdict = Verdict::Unreachable;
-                candidate.reason = OUT_OF_REACH.into();
+                (candidate.verdict, candidate.reason) = self.why_not(access, candidate.at_m);
+            }
+            let free = (0..self.field.grid().n()).filter(|&i| self.field.free()[i]);
+            let mut blocked = free.filter_map(|i| access.blocked_by(i)).peekable();
+            if blocked.peek().is_some() {
+                plan.outcome = PlanOutcome::GoalInCollision;
+                let example = blocked.flatten().next();
+                let example = example.map_or(String::new(), |(a, b)| format!(" ('{a}' would touch '{b}', for one)"));
+                plan.reason = format!("the arm would touch something at each free place for '{label}'{example}");
+                return;
             }
             plan.outcome = PlanOutcome::Unreachable;
             plan.reason = format!("the arm reaches none of the free places for '{label}'");
+            let stuck = manipulator.stuck();
+            if !stuck.is_empty() {
+                plan.reason += &format!("; by their limits these joints cannot move: {}", stuck.join(", "));
+            }
             return;
         }
         self.choose(plan, Some(access));
         let moved = if plan.map_placement_m == Some(self.map_m) {
             String::new()
         } else {
-            format!("; the best place, {}, is out of the arm's reach, so the next best counts", words(self.map_m))
+            let why = match self.why_not(access, self.map_m) {
+                (Verdict::Blocked, reason) => format!("cannot be used: {reason}"),
+                _ => "is out of the arm's reach".into(),
+            };
+            format!("; the best place, {}, {why}, so the next best counts", words(self.map_m))
         };
-        plan.outcome = PlanOutcome::NoPath;
+        let unheard = manipulator.unheard(joints);
+        if let Some(first) = unheard.first() {
+            plan.outcome = PlanOutcome::JointsUnknown;
+            let more = match unheard.len() - 1 {
+                0 => String::new(),
+                n => format!(" and {n} more"),
+            };
+            plan.reason = format!("where the arm is, is not known: nothing is heard of joint '{first}'{more}");
+            return;
+        }
+        if let Some(reason) = manipulator.outside(joints) {
+            plan.outcome = PlanOutcome::OutsideLimits;
+            plan.reason = format!("{reason}; move it back by hand");
+            return;
+        }
         if let Some((a, b)) = access.cell.contact(current) {
+            plan.outcome = PlanOutcome::StartInCollision;
             plan.reason = format!("where the arm is now, '{a}' touches '{b}'; move it away by hand");
             return;
         }
+        plan.outcome = PlanOutcome::NoPath;
         let mut tried: Vec<Point> = Vec::new();
         for candidate in plan.candidates.iter_mut().filter(|one| one.verdict == Verdict::NextBest).take(MOST_TRIED) {
             let Some(trajectory) = motion::plan(access, current, candidate.at_m) else {
@@ -269,9 +321,8 @@ impl Task<'_> {
             let reachable = is_best || self.is_open_at(access, at_m);
             // What can be used keeps apart from what can be used, and the rest from the rest: the place that the person
             // would like best is told although one beside it is taken.
-            let is_near = |one: &Candidate| {
-                one.at_m.distance(at_m) < APART_M && (one.verdict != Verdict::Unreachable) == reachable
-            };
+            let is_near =
+                |one: &Candidate| one.at_m.distance(at_m) < APART_M && (one.verdict == Verdict::NextBest) == reachable;
             let near_best = reachable && !is_best && best.is_some_and(|best| best.at_m.distance(at_m) < APART_M);
             if near_best || (!is_best && found.iter().any(is_near)) {
                 continue;
@@ -282,6 +333,10 @@ impl Task<'_> {
                 continue;
             }
             let figures = self.judge.figures(at_m, &mut room);
+            let (verdict, reason) = match access {
+                Some(access) if !reachable => self.why_not(access, at_m),
+                _ => (Verdict::NextBest, "a better one was taken".into()),
+            };
             found.push(Candidate {
                 at_m,
                 mean_reward: figures.mean_reward,
@@ -289,8 +344,8 @@ impl Task<'_> {
                 var_m: figures.var_m,
                 cvar_m: figures.cvar_m,
                 clearance_m: clearance_m(self.scene, at_m),
-                verdict: if reachable { Verdict::NextBest } else { Verdict::Unreachable },
-                reason: if reachable { "a better one was taken" } else { OUT_OF_REACH }.into(),
+                verdict,
+                reason,
             });
             usable += usize::from(reachable);
             if found.len() == MOST_CANDIDATES || usable == MOST_TRIED {
@@ -302,10 +357,22 @@ impl Task<'_> {
 
     /// Whether the cell around a point can be used.
     fn is_open_at(&self, access: Option<&Access>, at_m: Point) -> bool {
-        let Some(access) = access else { return true };
+        access.is_none_or(|access| access.is_open(self.cell_of(at_m)))
+    }
+
+    fn cell_of(&self, at_m: Point) -> usize {
         let (at, side) = (self.scene.normalised(at_m), self.field.grid().side());
         let index = |v: f64| ((v * side as f64) as usize).min(side - 1);
-        access.is_open(index(at.y) * side + index(at.x))
+        index(at.y) * side + index(at.x)
+    }
+
+    /// Why the arm cannot use a place.
+    fn why_not(&self, access: &Access, at_m: Point) -> (Verdict, String) {
+        match access.blocked_by(self.cell_of(at_m)) {
+            Some(Some((a, b))) => (Verdict::Blocked, format!("'{a}' would touch '{b}' there")),
+            Some(None) => (Verdict::Blocked, "the arm would touch something there".into()),
+            None => (Verdict::Unreachable, OUT_OF_REACH.into()),
+        }
     }
 
     /// The cell of largest MAP reward, the first of equals.

@@ -9,6 +9,8 @@ pub struct MotionSettings {
     pub choice: Choice,
     /// The link whose origin is between the fingertips and whose z axis points out of the hand.
     pub tool_link: String,
+    /// Where the table's frame is in the robot's root frame, when no link of the robot has its name.
+    pub table: Option<TablePose>,
     /// Things nearer than this count as touching, metres.
     pub margin_m: f64,
     /// Height above what it is put on at which the target is released, metres; a larger margin raises it.
@@ -29,11 +31,21 @@ pub struct MotionSettings {
     pub seed: u64,
 }
 
+/// Where the origin of a table is, and how the table is turned about the vertical.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TablePose {
+    /// In the robot's root frame, metres.
+    pub position_m: [f64; 3],
+    /// Radians.
+    pub yaw_rad: f64,
+}
+
 impl Default for MotionSettings {
     fn default() -> Self {
         Self {
             choice: Choice::default(),
             tool_link: "tool0".into(),
+            table: None,
             margin_m: 0.003,
             release_m: 0.006,
             approach_m: 0.12,

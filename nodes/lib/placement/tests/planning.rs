@@ -318,7 +318,7 @@ fn every_other_outcome_has_its_reason() {
     joints[2].1 = 0.6;
     joints[4].1 = 0.5;
     let plan = planner().plan(&flowers(), &batch(&draws, &map), 0.9, &joints);
-    assert_eq!(plan.outcome, PlanOutcome::NoPath);
+    assert_eq!(plan.outcome, PlanOutcome::StartInCollision);
     assert!(plan.reason.starts_with("where the arm is now, '") && plan.reason.contains("touches"), "{}", plan.reason);
     // A robot that is not at this table.
     let mut scene = flowers();
@@ -392,7 +392,7 @@ fn a_joint_that_crawls_or_an_endless_turn_does_not_stop_the_planner() {
     joints[5].1 = 1e300;
     planner.set_robot(&endless).unwrap();
     let plan = planner.plan(&flowers(), &batch(&draws, &map), 0.9, &joints);
-    assert!(matches!(plan.outcome, PlanOutcome::Planned | PlanOutcome::NoPath), "{}", plan.reason);
+    assert!(matches!(plan.outcome, PlanOutcome::Planned | PlanOutcome::OutsideLimits), "{}", plan.reason);
 }
 
 #[test]

@@ -84,7 +84,8 @@ pub struct PlanView {
     pub revision: u64,
     /// The scene it is for.
     pub scene_id: String,
-    /// `planned`, `no_free_place`, `unreachable`, `no_path`, `no_robot` or `unknown`.
+    /// `planned`, `no_free_place`, `unreachable`, `no_path`, `no_robot`, `start_in_collision`,
+    /// `goal_in_collision`, `joints_unknown`, `outside_limits` or `unknown`.
     pub outcome: &'static str,
     /// In words.
     pub reason: String,
