@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::clock::timed;
 use crate::error::PeersError;
 
-const PANDA: (&str, &str, &str) =
+pub(crate) const PANDA: (&str, &str, &str) =
     ("panda_description/urdf/panda.urdf", "panda_description/srdf/panda.srdf", "panda_hand_tcp");
 const UR5: (&str, &str) = ("ur_description/urdf/ur5_robot.urdf", "tool0");
 const N_CONFIGURATIONS: usize = 500;
@@ -220,7 +220,7 @@ fn inverse(name: &'static str, robot: &Robot, tool: &str, seed: u64) -> Result<I
     Ok(Inverse { robot: name, solved, of: N_POSES, median_us: at(0.5), p95_us: at(0.95), worst_us: at(1.0) })
 }
 
-fn uniform(rng: &mut ChaCha8Rng) -> f64 {
+pub(crate) fn uniform(rng: &mut ChaCha8Rng) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
@@ -299,25 +299,25 @@ fn request(
     })
 }
 
-fn read(share: &Path, file: &str) -> Result<Robot, PeersError> {
+pub(crate) fn read(share: &Path, file: &str) -> Result<Robot, PeersError> {
     let path = share.join("example-robot-data/robots").join(file);
     let text = read_text(&path, arm::MAX_BYTES).map_err(robot_error)?;
     let folders = Folders::new(&[share.to_owned()], Some(&path)).map_err(robot_error)?;
     Robot::read(&text, &mut |name| folders.find(name), &ReadOptions::default()).map_err(robot_error)
 }
 
-fn robot_error(error: impl std::fmt::Display) -> PeersError {
+pub(crate) fn robot_error(error: impl std::fmt::Display) -> PeersError {
     PeersError::Robot { problem: error.to_string() }
 }
 
 /// The interpreter that `tests/run` sets up: it has Pinocchio, Coal and the robots.
-fn interpreter() -> PathBuf {
+pub(crate) fn interpreter() -> PathBuf {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
     std::env::var_os("APPRENTICE_PYTHON").map_or_else(|| root.join(".venv/bin/python"), PathBuf::from)
 }
 
 /// The folder that holds the package `example-robot-data`.
-fn share(python: &Path) -> Result<PathBuf, PeersError> {
+pub(crate) fn share(python: &Path) -> Result<PathBuf, PeersError> {
     let say = "import sysconfig; print(sysconfig.get_path('purelib'), end='')";
     let output = Command::new(python).args(["-c", say]).output();
     let output = output.map_err(|source| PeersError::NoPython { python: python.to_owned(), source })?;

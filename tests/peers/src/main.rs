@@ -5,6 +5,7 @@ mod birl;
 mod bound;
 mod broil;
 mod clock;
+mod clutter;
 mod effective;
 mod error;
 mod highs;
@@ -12,6 +13,7 @@ mod l2_walk;
 mod large_world;
 mod memory;
 mod numpyro;
+mod plans;
 mod preference_data;
 mod preferences;
 mod published_walk;
@@ -54,6 +56,8 @@ enum What {
     LargeWorld,
     /// A Panda among 20 objects: kinematics and collision checks, ours and those of Pinocchio with Coal.
     Arm,
+    /// Placements in 200 cluttered scenes with a Panda and with our own arm: success, time, length.
+    Plans,
     /// How long a bound from 10,000 draws takes.
     Bound,
     /// Robust policies: ours and SciPy's HiGHS (set up by tests/peers/setup) on the same linear programs.
@@ -81,6 +85,7 @@ fn run(arguments: &Arguments) -> Result<(), PeersError> {
         What::Birl => serde_json::to_value(birl::compare(seconds, seed)?),
         What::LargeWorld => serde_json::to_value(large_world::measure(seed)?),
         What::Arm => serde_json::to_value(arm::compare(seconds, seed)?),
+        What::Plans => serde_json::to_value(plans::measure(seed)?),
         What::Bound => serde_json::to_value(bound::measure(seconds, seed)?),
         What::Broil => serde_json::to_value(broil::compare(seed)?),
     }
