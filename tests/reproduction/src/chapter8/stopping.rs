@@ -1,7 +1,7 @@
 //! A lesson that ends by the stopping rule, held with a person who is as the model says, or is not.
 
 use super::purpose;
-use crate::harness::{ReproductionError, extent, generator};
+use crate::harness::{ReproductionError, generator};
 use inquiry::tabular::{Answering, Over, alternatives};
 use inquiry::{
     Answered, Answers, Belief, DrawnOptima, HoldOut, Look, Losses, Objective, Obstacle, PredictiveCheck, Question,
@@ -197,7 +197,7 @@ fn learn(mdp: &Mdp, evidence: &[Choice], seed: u64, replicate: usize, look: u64)
     let model =
         Model { n_features: mdp.n_features(), prior: Prior::L1Sphere, nonnegative_return: None, terms: vec![term] };
     // A look needs 2 n_min effective draws of its δ: some 500 at the first, 900 at the fortieth.
-    let run = Run { n_draws: extent(1200, 300), n_chains: 4, warmup: 150, threads: 1 };
+    let run = Run { n_draws: 1200, n_chains: 4, warmup: 150, threads: 1 };
     let mut chains = generator(seed, replicate, purpose::CHAINS + look as u32);
     let mut key = [0; 32];
     chains.fill_bytes(&mut key);
