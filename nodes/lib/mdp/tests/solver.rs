@@ -229,3 +229,29 @@ fn a_fresh_solver_reaches_the_optimum_of_a_large_grid_at_once() {
         assert!((first - second).abs() < 1e-9, "gamma {gamma}: {first}, then {second}");
     }
 }
+
+#[test]
+fn rough_answers_are_as_exact_as_they_say() {
+    // Too wide for factors.
+    let mdp = garnet(900, 0.95, true, 11);
+    let mut rng = rng(12);
+    let center = random::l1_sphere(4, &mut rng);
+    let mut rough = Solver::new(&mdp);
+    for i in 0..40 {
+        let error = 10_f64.powi(-2 - i % 7);
+        let w: Vec<f64> = center.iter().map(|w| w + 0.02 * random::normal(&mut rng)).collect();
+        let mut exact = Solver::new(&mdp);
+        let (rough, exact) = (rough.solve_within(&w, error), exact.solve(&w));
+        assert!(rough.error_bound() <= error, "{} over {error}", rough.error_bound());
+        let apart = |s: usize| (rough.state_value(s) - exact.state_value(s)).abs();
+        assert!((0..mdp.n_states()).all(|s| apart(s) <= error), "query {i}");
+        // The policy found is worth what it says, and little less than the best.
+        let policy = Policy::Deterministic(rough.policy().to_vec());
+        let counts = feature_counts(&mdp, &policy).unwrap();
+        let worth: f64 = counts.iter().zip(&w).map(|(phi, w)| phi * w).sum();
+        assert!(exact.value() - worth <= 2.0 * error, "query {i}: {worth} of {}", exact.value());
+        for (x, y) in rough.feature_counts().iter().zip(&counts) {
+            assert!((x - y).abs() <= 1e-11 * scale(&mdp), "query {i}: {x} {y}");
+        }
+    }
+}

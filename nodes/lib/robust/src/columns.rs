@@ -22,6 +22,8 @@ const PATIENCE: usize = 20;
 const SMOOTHING: f64 = 0.5;
 /// Most vertices that are kept.
 const MAX_VERTICES: usize = 64;
+/// Share of the gap at hand to which plans are exact.
+const EXACTNESS: f64 = 0.05;
 /// Gains below this share of the unit are rounding.
 const ROUNDING: f64 = 1e-11;
 
@@ -125,16 +127,25 @@ impl<'a> Columns<'a> {
                 break;
             }
             let price = Price::new(self.scenarios, &best.tail);
+            // While the gap is wide, plans need not be exact.
+            let gap = search.upper_bound - search.objective;
+            let error = if gap.is_finite() { EXACTNESS * gap } else { EXACTNESS * self.unit };
             if let Some(center) = self.center.as_ref().filter(|_| search.rounds > PATIENCE) {
                 let smoothed = price.towards(center, smoothing);
-                if self.look(level, search, smoothed, &price, objective)? {
+                if self.look(level, search, smoothed, &price, objective, error)? {
                     smoothing = SMOOTHING.min(smoothing * 1.2);
                     continue;
                 }
                 // Too far from what holds this mixture down: plan for exactly that.
                 smoothing *= 0.7;
             }
-            if !self.look(level, search, price.clone(), &price, objective)? {
+            if self.look(level, search, price.clone(), &price, objective, error)? {
+                continue;
+            }
+            // Nothing gains as far as that plan can tell.
+            if search.upper_bound - search.objective > tolerance * self.unit
+                && !self.look(level, search, price.clone(), &price, objective, 0.0)?
+            {
                 break;
             }
         }
@@ -155,8 +166,9 @@ impl<'a> Columns<'a> {
         at: Price,
         price: &Price,
         objective: f64,
+        error: f64,
     ) -> Result<bool, MdpError> {
-        let (bound, index, new) = self.plan(level, &at)?;
+        let (bound, index, new) = self.plan(level, &at, error)?;
         if bound < search.upper_bound {
             search.upper_bound = bound;
             self.center = Some(at);
@@ -168,8 +180,8 @@ impl<'a> Columns<'a> {
     }
 
     /// Plans; the bound, the index of the plan, and whether it is new.
-    fn plan(&mut self, level: Level, price: &Price) -> Result<(f64, usize, bool), MdpError> {
-        let (bound, plan) = self.planner.plan(level, price)?;
+    fn plan(&mut self, level: Level, price: &Price, error: f64) -> Result<(f64, usize, bool), MdpError> {
+        let (bound, plan) = self.planner.plan(level, price, error)?;
         if let Some(known) = self.plans.iter().position(|known| known.counts == plan.counts) {
             return Ok((bound, known, false));
         }

@@ -7,6 +7,8 @@ use crate::scenarios::{Scenarios, dot};
 
 /// Errors of optimal values up to this share of their size do not matter yet.
 const ROUGH: f64 = 1e-9;
+/// Values within ε of the best, and the greedy policy of such values, are at most about 3 ε apart.
+const LOOSE: f64 = 4.0;
 /// Most steps of policy iteration.
 const MAX_IMPROVEMENTS: usize = 100;
 /// Most times that one optimum is looked for.
@@ -80,25 +82,26 @@ impl<'a> Planner<'a> {
     /// A process in which policies cannot be evaluated.
     pub(crate) fn plan_for_mean(&mut self) -> Result<(f64, Plan), MdpError> {
         let nothing = Price { weights: vec![0.0; self.mean.len()], offset: 0.0 };
-        self.plan(Level { alpha: 0.0, lambda: 1.0 }, &nothing)
+        self.plan(Level { alpha: 0.0, lambda: 1.0 }, &nothing, 0.0)
     }
 
     /// The optimal policy for the reward (1 − λ) Σ q_i w_i + λ w̄, and what no policy's objective exceeds, for
-    /// CVaR_α(ψ) ≤ Σ q_i ψ_i for every q with 0 ≤ q_i ≤ p_i / (1 − α) and Σ q = 1.
+    /// CVaR_α(ψ) ≤ Σ q_i ψ_i for every q with 0 ≤ q_i ≤ p_i / (1 − α) and Σ q = 1. Of a large process both are only within about
+    /// `error` of the best.
     ///
     /// # Errors
     /// A process in which policies cannot be evaluated.
-    pub(crate) fn plan(&mut self, level: Level, price: &Price) -> Result<(f64, Plan), MdpError> {
+    pub(crate) fn plan(&mut self, level: Level, price: &Price, error: f64) -> Result<(f64, Plan), MdpError> {
         let mixed = price.weights.iter().zip(&self.mean);
         let weights: Vec<f64> = mixed.map(|(w, mean)| level.risk() * w + level.lambda * mean).collect();
-        let (mut bound, mut plan) = optimum(self.mdp, &mut self.solver, &weights, |optimum| {
+        let (mut bound, mut plan) = optimum(self.mdp, &mut self.solver, &weights, error, |optimum| {
             let actions = optimum.policy().iter().map(|&action| action as u32).collect();
             let counts = optimum.feature_counts().to_vec();
             let visits = optimum.known_visits().map(<[f64]>::to_vec);
             (optimum.value() + optimum.error_bound(), Plan { actions, counts, visits })
         });
         // At a long horizon the solver takes actions for ties that are not.
-        if bound - dot(&weights, &plan.counts) > self.precision {
+        if bound - dot(&weights, &plan.counts) > self.precision.max(LOOSE * error) {
             let (polished, better) = polish(self.mdp, &weights, &plan)?;
             bound = bound.min(polished);
             if dot(&weights, &better.counts) > dot(&weights, &plan.counts) {
@@ -109,20 +112,21 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// What `read` takes from the optimum under `weights`, which is looked for again from where the search stopped while it is
-/// known too roughly.
+/// What `read` takes from the optimum under `weights` within `error`, which is looked for again from where the search stopped
+/// while it is known too roughly.
 pub(crate) fn optimum<'m, T>(
     mdp: &Mdp,
     solver: &mut Solver<'m>,
     weights: &[f64],
+    error: f64,
     read: impl Fn(&Optimum<'m>) -> T,
 ) -> T {
     let n_states = mdp.n_states();
     let mut tries = 1;
     loop {
-        let optimum = solver.solve(weights);
+        let optimum = solver.solve_within(weights, error);
         let size = (0..n_states).fold(0.0_f64, |most, state| most.max(optimum.state_value(state).abs()));
-        if optimum.error_bound() <= ROUGH * size || tries == MAX_TRIES {
+        if optimum.error_bound() <= error.max(ROUGH * size) || tries == MAX_TRIES {
             return read(optimum);
         }
         tries += 1;
@@ -131,7 +135,7 @@ pub(crate) fn optimum<'m, T>(
 
 /// V*_w.
 pub(crate) fn optimal_value(mdp: &Mdp, solver: &mut Solver<'_>, weights: &[f64]) -> f64 {
-    let (value, rough) = optimum(mdp, solver, weights, |optimum| {
+    let (value, rough) = optimum(mdp, solver, weights, 0.0, |optimum| {
         let rough = optimum.error_bound() > ROUGH * optimum.value().abs();
         let actions = || optimum.policy().iter().map(|&action| action as u32).collect();
         (

@@ -4,8 +4,10 @@ use crate::MdpError;
 
 /// Sweeps without a smaller change after which there is nothing to hope for.
 const PATIENCE: usize = 50;
-/// Sweeps, or rounds of pushing visits downstream, after which those that would follow are taken together.
+/// Sweeps after which those that would follow are taken together.
 const ROUNDS: usize = 4;
+/// Rounds of pushing visits downstream that the next takes into account.
+const HISTORY: usize = 6;
 
 /// Relative error that solutions have at most: 1e-13, or what rounding leaves at a long horizon.
 pub(crate) fn precision(gamma: f64) -> f64 {
@@ -19,6 +21,8 @@ pub(crate) struct Sweeps {
     gamma: f64,
     /// States in order.
     states: Vec<u32>,
+    /// The place of each state in that order.
+    places: Vec<u32>,
     /// 1 / (1 − W_ss) for each state.
     stay: Vec<f64>,
     /// Where the entries of each state start, in order.
@@ -32,9 +36,13 @@ impl Sweeps {
     /// W = `factor` times the weights that row(s) gives for each of n states, targets in any order; no row of W sums to more
     /// than γ.
     pub(crate) fn new<'a>(n: usize, gamma: f64, factor: f64, row: impl Fn(usize) -> (&'a [u32], &'a [f64])) -> Self {
+        let states = downstream_first(n, |state| most_probable(row(state)));
+        let mut places = vec![0; n];
+        states.iter().enumerate().for_each(|(place, &state)| places[state as usize] = place as u32);
         let mut sweeps = Self {
             gamma,
-            states: downstream_first(n, |state| most_probable(row(state))),
+            states,
+            places,
             stay: vec![1.0; n],
             starts: Vec::with_capacity(n + 1),
             targets: Vec::new(),
@@ -43,17 +51,33 @@ impl Sweeps {
         sweeps.starts.push(0);
         for &state in &sweeps.states {
             let (targets, weights) = row(state as usize);
-            let entries = || targets.iter().zip(weights);
-            let loops: f64 = entries().filter(|(target, _)| **target == state).map(|(_, weight)| factor * weight).sum();
-            let stay = 1.0 / (1.0 - loops);
+            let entries = || targets.iter().zip(weights).filter(|(target, _)| **target != state);
+            let stay = stay(state, factor, targets, weights);
             sweeps.stay[state as usize] = stay;
-            for (&target, weight) in entries().filter(|(target, _)| **target != state) {
-                sweeps.targets.push(target);
-                sweeps.weights.push(factor * weight * stay);
-            }
+            sweeps.targets.extend(entries().map(|(target, _)| *target));
+            sweeps.weights.extend(entries().map(|(_, weight)| factor * weight * stay));
             sweeps.starts.push(sweeps.targets.len() as u32);
         }
         sweeps
+    }
+
+    /// Replaces the row of one state, given as to [`Self::new`] with the same factor, and leaves the order as it is; whether there
+    /// was room for it. Without, nothing is changed.
+    pub(crate) fn replace(&mut self, state: usize, factor: f64, (targets, weights): (&[u32], &[f64])) -> bool {
+        let place = self.places[state] as usize;
+        let range = self.starts[place] as usize..self.starts[place + 1] as usize;
+        let entries = || targets.iter().zip(weights).filter(|(target, _)| **target as usize != state);
+        if entries().count() > range.len() {
+            return false;
+        }
+        let stay = stay(state as u32, factor, targets, weights);
+        self.stay[state] = stay;
+        let nothing = (&(state as u32), &0.0);
+        let slots = self.targets[range.clone()].iter_mut().zip(&mut self.weights[range]);
+        for ((target, weight), new) in slots.zip(entries().chain(std::iter::repeat(nothing))) {
+            (*target, *weight) = (*new.0, factor * new.1 * stay);
+        }
+        true
     }
 
     #[inline]
@@ -173,63 +197,157 @@ impl Sweeps {
     /// Replaces the visits that start in each state, of either sign, by all discounted visits, y = b + Wᵀ y: pushes
     /// downstream what is left to come, upstream first. Absolute errors sum to at most [`precision`] of Σ|b| / (1 − γ).
     pub(crate) fn visits(&self, b: &mut [f64]) {
-        let total: f64 = b.iter().map(|x| x.abs()).sum();
-        let negligible = precision(self.gamma) * total / b.len() as f64;
+        let negligible = self.negligible(b);
         let mut left = b.to_vec();
         b.fill(0.0);
-        let (mut direction, mut ahead) = (vec![0.0; b.len()], vec![0.0; b.len()]);
-        // Each round leaves at most γ of what was left, so this ends; what is negligible in a state stays behind there.
-        let (mut pushed, mut rounds) = (true, 0);
-        while pushed {
-            pushed = false;
-            rounds += 1;
-            direction.fill(0.0);
-            for (place, &state) in self.states.iter().enumerate().rev() {
-                let visits = left[state as usize];
-                if visits.abs() > negligible {
-                    pushed = true;
-                    left[state as usize] = 0.0;
-                    b[state as usize] += visits;
-                    direction[state as usize] = visits;
-                    for (target, weight) in self.row(place) {
-                        left[target] += visits * weight;
-                    }
-                }
-            }
-            // After a few rounds the next is nearly a multiple of the last, and so are all that follow: they shrink slowly, and
-            // are taken together.
-            if pushed && rounds % ROUNDS == 0 {
-                self.go_along(&direction, &mut left, b, &mut ahead);
-            }
-        }
+        self.push(&mut left, b, negligible);
         b.iter_mut().zip(&self.stay).for_each(|(visits, stay)| *visits *= stay);
     }
 
-    /// Adds that multiple of `direction` to the visits which leaves least, in squares (a step of minimal residual: Saad 2003,
-    /// section 5.3.2). `ahead` is room for n numbers.
-    fn go_along(&self, direction: &[f64], left: &mut [f64], visits: &mut [f64], ahead: &mut [f64]) {
-        ahead.copy_from_slice(direction);
+    /// What visits of one state are too few to follow, for visits that start as `b`.
+    fn negligible(&self, b: &[f64]) -> f64 {
+        precision(self.gamma) * b.iter().map(|x| x.abs()).sum::<f64>() / b.len() as f64
+    }
+
+    /// The same for visits `b` of no negative sign, beginning with `near`, the visits of another chain: where the chains differ
+    /// little, little is left to come. Fewer visits of a state than are followed are none.
+    pub(crate) fn visits_near(&self, b: &mut [f64], near: &[f64]) {
+        let negligible = self.negligible(b);
+        let mut left = b.to_vec();
         for (place, &state) in self.states.iter().enumerate() {
-            let from = direction[state as usize];
-            if from != 0.0 {
-                for (target, weight) in self.row(place) {
-                    ahead[target] -= from * weight;
-                }
+            // Visits are counted without those that stay, until the end.
+            let visits = near[state as usize] / self.stay[state as usize];
+            b[state as usize] = visits;
+            left[state as usize] -= visits;
+            for (target, weight) in self.row(place) {
+                left[target] += visits * weight;
             }
         }
-        let (mut product, mut square) = (0.0, 0.0);
-        for (left, ahead) in left.iter().zip(&*ahead) {
-            product += left * ahead;
-            square += ahead * ahead;
+        self.push(&mut left, b, negligible);
+        for (visits, stay) in b.iter_mut().zip(&self.stay) {
+            *visits = if *visits > negligible { *visits * stay } else { 0.0 };
         }
-        if square > 0.0 {
-            let share = product / square;
-            for (((visits, left), direction), ahead) in visits.iter_mut().zip(left).zip(direction).zip(ahead) {
+    }
+
+    /// Adds to `b`, visits without those that stay, all that follow from `left`, of either sign: rounds of pushing, each with the
+    /// share that leaves least in squares, after what the rounds before it already took is taken out (the generalised conjugate
+    /// residual method, Eisenstat, Elman and Schultz 1983, whose preconditioner is a round).
+    fn push(&self, left: &mut [f64], b: &mut [f64], negligible: f64) {
+        let mut history = History::new(left.len());
+        let mut before = vec![0.0; left.len()];
+        let (mut least, mut since) = (f64::INFINITY, 0);
+        loop {
+            before.copy_from_slice(left);
+            let step = history.next();
+            if !self.push_once(left, step, negligible) {
+                break;
+            }
+            let size: f64 = before.iter().map(|x| x.abs()).sum();
+            (least, since) = if size < 0.9 * least { (size, 0) } else { (least, since + 1) };
+            if since > PATIENCE {
+                // Plain rounds leave at most γ of what was left each, so this ends.
+                b.iter_mut().zip(&step.direction).for_each(|(visits, x)| *visits += x);
+                continue;
+            }
+            step.image.iter_mut().zip(&before).zip(&*left).for_each(|((image, before), after)| *image = before - after);
+            let share = history.conjugate(&before);
+            let step = history.last();
+            for ((visits, left), (direction, (image, before))) in
+                b.iter_mut().zip(&mut *left).zip(step.direction.iter().zip(step.image.iter().zip(&before)))
+            {
                 *visits += share * direction;
-                *left -= share * *ahead;
+                *left = before - share * image;
             }
         }
     }
+
+    /// Pushes what is left in each state on to those that follow; whether there was anything that counts.
+    fn push_once(&self, left: &mut [f64], step: &mut Step, negligible: f64) -> bool {
+        let mut pushed = false;
+        for (place, &state) in self.states.iter().enumerate().rev() {
+            let visits = left[state as usize];
+            let counts = visits.abs() > negligible;
+            step.direction[state as usize] = if counts { visits } else { 0.0 };
+            if counts {
+                pushed = true;
+                left[state as usize] = 0.0;
+                for (target, weight) in self.row(place) {
+                    left[target] += visits * weight;
+                }
+            }
+        }
+        pushed
+    }
+}
+
+/// A direction d, and (I − Wᵀ) d.
+#[derive(Debug, Clone)]
+struct Step {
+    direction: Vec<f64>,
+    image: Vec<f64>,
+    /// |image|².
+    square: f64,
+}
+
+/// The last steps, whose images are orthogonal.
+struct History {
+    steps: Vec<Step>,
+    n: usize,
+    /// Steps taken since the start.
+    taken: usize,
+}
+
+impl History {
+    fn new(n: usize) -> Self {
+        Self { steps: vec![], n, taken: 0 }
+    }
+
+    /// Room for the next step, in place of the oldest.
+    fn next(&mut self) -> &mut Step {
+        if self.steps.len() < HISTORY {
+            self.steps.push(Step { direction: vec![0.0; self.n], image: vec![0.0; self.n], square: 0.0 });
+        }
+        let place = self.taken % HISTORY;
+        self.taken += 1;
+        &mut self.steps[place]
+    }
+
+    fn last(&self) -> &Step {
+        &self.steps[(self.taken - 1) % HISTORY]
+    }
+
+    /// Takes the parts along the others out of the last step; the share of it that leaves least of `left`.
+    fn conjugate(&mut self, left: &[f64]) -> f64 {
+        let place = (self.taken - 1) % HISTORY;
+        let (older, rest) = self.steps.split_at_mut(place);
+        let (step, newer) = rest.split_first_mut().expect("a step was taken");
+        for other in older.iter().chain(&*newer).filter(|other| other.square > 0.0) {
+            let part = dot(&step.image, &other.image) / other.square;
+            step.image.iter_mut().zip(&other.image).for_each(|(x, y)| *x -= part * y);
+            step.direction.iter_mut().zip(&other.direction).for_each(|(x, y)| *x -= part * y);
+        }
+        step.square = dot(&step.image, &step.image);
+        if step.square > 0.0 { dot(left, &step.image) / step.square } else { 1.0 }
+    }
+}
+
+/// xᵀy, summed in lanes of their own, which vector instructions add.
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let (x_blocks, y_blocks) = (x.chunks_exact(8), y.chunks_exact(8));
+    let rest: f64 = x_blocks.remainder().iter().zip(y_blocks.remainder()).map(|(x, y)| x * y).sum();
+    let mut lanes = [0.0; 8];
+    for (x, y) in x_blocks.zip(y_blocks) {
+        for ((lane, x), y) in lanes.iter_mut().zip(x).zip(y) {
+            *lane += x * y;
+        }
+    }
+    lanes.iter().sum::<f64>() + rest
+}
+
+/// 1 / (1 − W_ss).
+fn stay(state: u32, factor: f64, targets: &[u32], weights: &[f64]) -> f64 {
+    let loops = targets.iter().zip(weights).filter(|(target, _)| **target == state);
+    1.0 / (1.0 - loops.map(|(_, weight)| factor * weight).sum::<f64>())
 }
 
 /// States by the number of most probable steps to where those end or meet themselves: states of the same number do not wait
@@ -321,6 +439,27 @@ mod tests {
         assert!((visits.iter().sum::<f64>() - x[0]).abs() < 1e-12);
     }
 
+    #[test]
+    fn rows_are_replaced_where_there_is_room() {
+        let mut rows = jumble(50, 0.9);
+        let mut sweeps = Sweeps::new(50, 0.9, 1.0, |s| (&rows[s].0[..], &rows[s].1[..]));
+        rows[7] = (vec![7, 3, 9], vec![0.2, 0.3, 0.4]);
+        rows[11] = (vec![], vec![]);
+        for s in [7, 11] {
+            assert!(sweeps.replace(s, 1.0, (&rows[s].0, &rows[s].1)));
+        }
+        assert!(!sweeps.replace(11, 1.0, (&[1, 2, 3, 4, 5], &[0.1; 5])), "there is room for four");
+        let fresh = Sweeps::new(50, 0.9, 1.0, |s| (&rows[s].0[..], &rows[s].1[..]));
+        let (mut old, mut new) = (vec![1.0; 50], vec![1.0; 50]);
+        sweeps.solve(&mut old, 1).expect("a solution");
+        fresh.solve(&mut new, 1).expect("a solution");
+        assert!(old.iter().zip(&new).all(|(x, y)| (x - y).abs() < 1e-11));
+        let (mut old, mut new) = (vec![1.0; 50], vec![1.0; 50]);
+        sweeps.visits(&mut old);
+        fresh.visits(&mut new);
+        assert!(old.iter().zip(&new).all(|(x, y)| (x - y).abs() < 1e-11));
+    }
+
     /// A chain without structure: each state leads to four others.
     fn jumble(n: u32, gamma: f64) -> Vec<(Vec<u32>, Vec<f64>)> {
         let shares = [0.4, 0.3, 0.2, 0.1].map(|share| gamma * share);
@@ -345,6 +484,17 @@ mod tests {
             }
             let left: f64 = balance.iter().map(|x| x.abs()).sum();
             assert!(left <= 1e-11 / (1.0 - gamma), "γ = {gamma}: {left:e} left of visits");
+
+            // The same from the visits of a chain that differs in every tenth state.
+            let starts = vec![1.0 / 300.0; 300];
+            let (mut other, mut from_near, mut from_none) = (rows.clone(), starts.clone(), starts.clone());
+            other.iter_mut().step_by(10).for_each(|row| row.1.reverse());
+            let mut near = starts.clone();
+            Sweeps::new(300, gamma, 1.0, |s| (&other[s].0[..], &other[s].1[..])).visits(&mut near);
+            sweeps.visits_near(&mut from_near, &near);
+            sweeps.visits(&mut from_none);
+            let apart: f64 = from_near.iter().zip(&from_none).map(|(x, y)| (x - y).abs()).sum();
+            assert!(apart <= 1e-12 / (1.0 - gamma), "γ = {gamma}: {apart:e} apart");
 
             let mut x = vec![0.0; 300];
             sweeps.relax(&sweeps.prepared(&begin, 1), &mut x, 1e-12, 100_000);

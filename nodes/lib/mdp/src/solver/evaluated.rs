@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::evaluate::{state_visits, successor_features};
+use crate::linear::Sweeps;
 use crate::model::Mdp;
 use crate::policy::Policy;
 
@@ -21,7 +22,16 @@ pub(super) struct Evaluated {
     psi: OnceLock<Vec<f64>>,
     counts: OnceLock<Vec<f64>>,
     /// Discounted visits of every state, where counts were computed from them.
-    visits: OnceLock<Vec<f64>>,
+    visits: OnceLock<Arc<Vec<f64>>>,
+}
+
+/// What makes it cheaper to evaluate a policy.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Help {
+    /// Its chain, where that is laid out already.
+    pub(super) sweeps: Option<Arc<Sweeps>>,
+    /// The visits of a policy that was found shortly before.
+    pub(super) near: Option<Arc<Vec<f64>>>,
 }
 
 impl Evaluated {
@@ -53,18 +63,17 @@ impl Evaluated {
     }
 
     /// Expected feature counts: k numbers.
-    pub(super) fn counts(&self, mdp: &Mdp) -> &[f64] {
+    pub(super) fn counts(&self, mdp: &Mdp, help: &Help) -> &[f64] {
         self.counts.get_or_init(|| {
             let Some(psi) = self.known_psi() else {
-                let policy = Policy::Deterministic(self.policy.clone());
-                let visits = state_visits(mdp, &policy).expect("a greedy policy is valid");
+                let visits = self.all_visits(mdp, help);
                 let mut counts = vec![0.0; mdp.n_features()];
                 for ((state, &action), visits) in self.policy.iter().enumerate().zip(&visits) {
                     for (count, phi) in counts.iter_mut().zip(mdp.features(state, action)) {
                         *count += visits * phi;
                     }
                 }
-                self.visits.get_or_init(|| visits);
+                self.visits.get_or_init(|| Arc::new(visits));
                 return counts;
             };
             let mean = |psi: &[f64]| psi.iter().zip(mdp.initial()).map(|(psi, p)| p * psi).sum();
@@ -75,8 +84,21 @@ impl Evaluated {
 
 impl Evaluated {
     /// Discounted visits of every state if they are known.
-    pub(super) fn known_visits(&self) -> Option<&[f64]> {
-        self.visits.get().map(Vec::as_slice)
+    pub(super) fn known_visits(&self) -> Option<&Arc<Vec<f64>>> {
+        self.visits.get()
+    }
+
+    fn all_visits(&self, mdp: &Mdp, help: &Help) -> Vec<f64> {
+        let Some(sweeps) = &help.sweeps else {
+            let policy = Policy::Deterministic(self.policy.clone());
+            return state_visits(mdp, &policy).expect("a greedy policy is valid");
+        };
+        let mut visits = mdp.initial().to_vec();
+        match &help.near {
+            Some(near) => sweeps.visits_near(&mut visits, near),
+            None => sweeps.visits(&mut visits),
+        }
+        visits
     }
 }
 

@@ -5,14 +5,17 @@ mod direct;
 mod evaluated;
 mod greedy;
 mod optimum;
+mod recent;
 mod sweeping;
 mod tables;
 
 pub use optimum::Optimum;
 
+use std::sync::Arc;
+
 use direct::Direct;
 use greedy::{Greedy, Tolerances};
-use sweeping::Sweeping;
+use sweeping::{Sweeping, Wanted};
 use tables::Tables;
 
 use crate::limits::MAX_GAMMA_LARGE;
@@ -80,6 +83,15 @@ impl<'a> Solver<'a> {
     /// # Panics
     /// When there are not k weights.
     pub fn solve(&mut self, w: &[f64]) -> &Optimum<'a> {
+        self.solve_within(w, 0.0)
+    }
+
+    /// The same, but where values are found step by step that ends once no value is off by more than `error`, as
+    /// [`Optimum::error_bound`] proves it; the policy is then greedy for these values. It may depend on what was asked before.
+    ///
+    /// # Panics
+    /// When there are not k weights.
+    pub fn solve_within(&mut self, w: &[f64], error: f64) -> &Optimum<'a> {
         assert_eq!(w.len(), self.tables.mdp.n_features(), "as many weights as features");
         let scale = self.tables.scale(w);
         if !scale.is_finite() {
@@ -89,10 +101,18 @@ impl<'a> Solver<'a> {
         let tolerances = Tolerances::new(self.tables.mdp.gamma(), scale);
         self.tables.rewards(w, &mut self.working.rewards);
         let Self { tables, engine, working, optimum } = self;
+        if let Some(visits) = optimum.evaluated.known_visits() {
+            optimum.help.near = Some(Arc::clone(visits));
+        }
         optimum.evaluated = match engine {
             Engine::Direct(direct) => direct.solve(tables, w, tolerances, working, &mut optimum.values, &mut optimum.q),
             Engine::Sweeping(sweeping) => {
-                sweeping.solve(tables, tolerances, working, &mut optimum.values, &mut optimum.q)
+                let wanted = Wanted { tolerances, error };
+                // Nobody else holds the chain then, and its rows are replaced in place.
+                optimum.help.sweeps = None;
+                let found = sweeping.solve(tables, w, wanted, working, &mut optimum.values, &mut optimum.q);
+                optimum.help.sweeps = sweeping.layout_of(&found);
+                found
             }
         };
         optimum.finish(tolerances.tie);

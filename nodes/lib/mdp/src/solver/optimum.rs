@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::linear::Sweeps;
 use crate::model::Mdp;
 use crate::policy::Policy;
-use crate::solver::evaluated::Evaluated;
+use crate::solver::evaluated::{Evaluated, Help};
 
 /// The optimal policy, its values and their derivatives by the weights.
 #[derive(Debug, Clone)]
@@ -16,6 +16,7 @@ pub struct Optimum<'a> {
     /// How close actions come to tie.
     tie: f64,
     pub(super) evaluated: Arc<Evaluated>,
+    pub(super) help: Help,
     pub(super) values: Vec<f64>,
     /// Q, all states of an action together.
     pub(super) q: Vec<f64>,
@@ -25,7 +26,8 @@ impl<'a> Optimum<'a> {
     pub(super) fn new(mdp: &'a Mdp, evaluated: Arc<Evaluated>) -> Self {
         let n = mdp.n_states();
         let starts = mdp.initial().iter().copied().enumerate().filter(|(_, p)| *p > 0.0).collect();
-        Self { mdp, starts, value: 0.0, tie: 0.0, evaluated, values: vec![0.0; n], q: vec![0.0; n * mdp.n_actions()] }
+        let (values, q) = (vec![0.0; n], vec![0.0; n * mdp.n_actions()]);
+        Self { mdp, starts, value: 0.0, tie: 0.0, evaluated, help: Help::default(), values, q }
     }
 
     /// Takes over values that were found.
@@ -122,9 +124,14 @@ impl<'a> Optimum<'a> {
             return;
         }
         // yᵀΨ = (all discounted visits that start as y)ᵀ φ: one solution instead of k.
-        let gamma = self.mdp.gamma();
-        let row = |state: usize| self.mdp.row(state, self.policy()[state]);
-        Sweeps::new(visits.len(), gamma, gamma, row).visits(&mut visits);
+        match &self.help.sweeps {
+            Some(sweeps) => sweeps.visits(&mut visits),
+            None => {
+                let gamma = self.mdp.gamma();
+                let row = |state: usize| self.mdp.row(state, self.policy()[state]);
+                Sweeps::new(visits.len(), gamma, gamma, row).visits(&mut visits);
+            }
+        }
         for (state, (y, &action)) in visits.iter().zip(self.policy()).enumerate() {
             if *y != 0.0 {
                 add_scaled(out, *y, self.mdp.features(state, action));
@@ -134,12 +141,12 @@ impl<'a> Optimum<'a> {
 
     /// Discounted visits of every state by the optimal policy, S numbers, where [`Self::feature_counts`] was computed from them.
     pub fn known_visits(&self) -> Option<&[f64]> {
-        self.evaluated.known_visits()
+        self.evaluated.known_visits().map(|visits| &visits[..])
     }
 
     /// Φ of the optimal policy: k numbers.
     pub fn feature_counts(&self) -> &[f64] {
-        self.evaluated.counts(self.mdp)
+        self.evaluated.counts(self.mdp, &self.help)
     }
 }
 

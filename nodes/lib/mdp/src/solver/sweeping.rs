@@ -7,6 +7,7 @@ use crate::model::Mdp;
 use crate::solver::Working;
 use crate::solver::evaluated::{Evaluated, Memory};
 use crate::solver::greedy::Tolerances;
+use crate::solver::recent::Recent;
 use crate::solver::tables::Tables;
 
 /// Share of the residual that sweeps leave before actions are chosen again.
@@ -18,8 +19,26 @@ const PATIENCE: usize = 10;
 const NEAR_ROUNDING: f64 = 1e4;
 /// Rounds, at most: the values that are left then are judged by their error bound.
 const MAX_ROUNDS: usize = 5000;
+/// States are put in order anew once one row in so many was replaced.
+const OUT_OF_ORDER: usize = 8;
 /// Sweeps between two choices of actions, at most.
 const MAX_SWEEPS: usize = 200;
+
+/// How exact an answer is to be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wanted {
+    pub(super) tolerances: Tolerances,
+    /// Values may be off by as much.
+    pub(super) error: f64,
+}
+
+/// A chain, laid out.
+#[derive(Debug, Clone)]
+struct Layout {
+    sweeps: Arc<Sweeps>,
+    /// Rows that were replaced since states were put in order.
+    changes: usize,
+}
 
 #[derive(Debug, Clone)]
 pub(super) struct Sweeping {
@@ -29,6 +48,11 @@ pub(super) struct Sweeping {
     policy: Vec<usize>,
     /// Its rewards.
     rewards: Vec<f64>,
+    /// Its chain.
+    layout: Option<Layout>,
+    /// Where the policy changed last.
+    changed: Vec<u32>,
+    recent: Recent,
     /// Whether no state is terminal.
     never_ends: bool,
 }
@@ -39,7 +63,8 @@ impl Sweeping {
         let mut memory = Memory::new(policy.len() * (mdp.n_features() + 2));
         let current = memory.add(Evaluated::new(policy.clone()));
         let never_ends = (0..policy.len()).all(|state| !mdp.is_terminal(state));
-        Self { current, memory, rewards: vec![0.0; policy.len()], policy, never_ends }
+        let (rewards, recent) = (vec![0.0; policy.len()], Recent::new(policy.len(), mdp.n_features()));
+        Self { current, memory, policy, rewards, layout: None, changed: vec![], recent, never_ends }
     }
 
     /// The policy last found.
@@ -47,22 +72,29 @@ impl Sweeping {
         Arc::clone(&self.current)
     }
 
-    /// The first optimal policy under the rewards at hand; V and Q into `values`, from which the search starts, and `q`.
+    /// The chain of a policy, if it is laid out.
+    pub(super) fn layout_of(&self, evaluated: &Evaluated) -> Option<Arc<Sweeps>> {
+        self.layout.as_ref().filter(|_| self.policy == evaluated.policy).map(|layout| Arc::clone(&layout.sweeps))
+    }
+
+    /// The first optimal policy under weights `w`, whose rewards are at hand; V and Q into `values`, from which the search starts
+    /// where nothing better is known, and `q`.
     pub(super) fn solve(
         &mut self,
         tables: &Tables<'_>,
-        tolerances: Tolerances,
+        w: &[f64],
+        Wanted { tolerances, error }: Wanted,
         working: &mut Working,
         values: &mut [f64],
         q: &mut [f64],
     ) -> Arc<Evaluated> {
         let (mdp, gamma) = (tables.mdp, tables.mdp.gamma());
-        let enough = (1.0 - gamma) * tolerances.rounding;
-        if values.iter().any(|value| !value.is_finite()) {
+        let enough = (1.0 - gamma) * tolerances.rounding.max(error);
+        if !self.recent.expect(w, values) && values.iter().any(|value| !value.is_finite()) {
             values.fill(0.0);
         }
         let (mut least, mut since) = (f64::INFINITY, 0);
-        let mut layout: Option<(Sweeps, Vec<f64>)> = None;
+        let mut prepared: Option<Vec<f64>> = None;
         for _ in 0..MAX_ROUNDS {
             tables.backup(&working.rewards, values, q);
             working.greedy.set(q, tolerances.tie);
@@ -75,15 +107,16 @@ impl Sweeping {
             if residual <= enough || (since > PATIENCE && residual <= NEAR_ROUNDING * enough.max(f64::MIN_POSITIVE)) {
                 break;
             }
-            if self.improve(tables, working, q) || layout.is_none() {
-                let sweeps = Sweeps::new(mdp.n_states(), gamma, gamma, |state| mdp.row(state, self.policy[state]));
-                let prepared = sweeps.prepared(&self.rewards, 1);
-                layout = Some((sweeps, prepared));
+            self.improve(tables, working, q);
+            if !self.changed.is_empty() {
+                prepared = None;
             }
-            let (sweeps, prepared) = layout.as_ref().expect("laid out in the first round");
+            let sweeps = lay_out(&mut self.layout, mdp, &self.policy, &self.changed);
+            let prepared = prepared.get_or_insert_with(|| sweeps.prepared(&self.rewards, 1));
             let residual = if self.never_ends { shift(&working.greedy.best, values, gamma) } else { residual };
             sweeps.relax(prepared, values, (SHARE * residual).max(0.5 * enough), MAX_SWEEPS);
         }
+        self.recent.add(w, values);
         if working.greedy.first != self.current.actions {
             let first = &working.greedy.first;
             self.current = self.memory.find(first).unwrap_or_else(|| {
@@ -93,20 +126,37 @@ impl Sweeping {
         self.current()
     }
 
-    /// Takes the best action wherever it is better than the present one; whether there was any.
-    fn improve(&mut self, tables: &Tables<'_>, working: &Working, q: &[f64]) -> bool {
+    /// Takes the best action wherever it is better than the present one, and notes where that is.
+    fn improve(&mut self, tables: &Tables<'_>, working: &Working, q: &[f64]) {
         let n = self.policy.len();
-        let mut improved = false;
+        self.changed.clear();
         for (state, action) in self.policy.iter_mut().enumerate() {
             let best = working.greedy.best[state];
             if best > q[*action * n + state] {
                 *action = q[state..].iter().step_by(n).position(|q| *q == best).unwrap_or(0);
-                improved = true;
+                self.changed.push(state as u32);
             }
             self.rewards[state] = working.rewards[tables.reward_index(state, *action)];
         }
-        improved
     }
+}
+
+/// The chain of `policy`, from that of the policy before it `changed` in these states.
+fn lay_out<'s>(layout: &'s mut Option<Layout>, mdp: &Mdp, policy: &[usize], changed: &[u32]) -> &'s Sweeps {
+    let (n, gamma) = (policy.len(), mdp.gamma());
+    let fits = layout.as_mut().is_some_and(|layout| {
+        layout.changes += changed.len();
+        // Rows out of order cost more sweeps than a new order does.
+        layout.changes * OUT_OF_ORDER <= n && {
+            let sweeps = Arc::make_mut(&mut layout.sweeps);
+            changed.iter().all(|&s| sweeps.replace(s as usize, gamma, mdp.row(s as usize, policy[s as usize])))
+        }
+    });
+    if !fits {
+        *layout = None;
+    }
+    let new = || Sweeps::new(n, gamma, gamma, |state| mdp.row(state, policy[state]));
+    &layout.get_or_insert_with(|| Layout { sweeps: Arc::new(new()), changes: 0 }).sweeps
 }
 
 /// Adds the same to all values, so that `best`, what one backup makes of them, lies as far above as below: where nothing ends,

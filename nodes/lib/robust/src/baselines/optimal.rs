@@ -22,7 +22,7 @@ pub struct Baseline {
 pub fn optimal_policy(mdp: &Mdp, weights: &[f64]) -> Result<Baseline, RobustError> {
     check_length("weights", weights.len(), mdp.n_features(), "one per feature")?;
     check_numbers("weights", weights)?;
-    Ok(optimum(mdp, &mut Solver::new(mdp), weights, |optimum| Baseline {
+    Ok(optimum(mdp, &mut Solver::new(mdp), weights, 0.0, |optimum| Baseline {
         policy: Policy::Deterministic(optimum.policy().to_vec()),
         feature_counts: optimum.feature_counts().to_vec(),
     }))

@@ -99,7 +99,7 @@ impl<'a> Direct<'a> {
             let Some(solved) = solved else { break };
             let value = self.take(level, &solved.occupancy, &mut best)?;
             let shares = tail_shares(self.scenarios, &active, level, &solved.duals, &value.values);
-            let (bound, _) = self.planner.plan(level, &Price::new(self.scenarios, &shares))?;
+            let (bound, _) = self.planner.plan(level, &Price::new(self.scenarios, &shares), 0.0)?;
             best.upper_bound = best.upper_bound.min(bound);
             let before = active.clone();
             let more = active.extend(self.scenarios, level, &value.values, solved.edge);
