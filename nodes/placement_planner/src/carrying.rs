@@ -40,8 +40,8 @@ pub enum Deed {
     Feedback(GoalId, PlaceObjectFeedback),
     /// Tell them how it ended.
     Finish(GoalId, End, Box<PlaceObjectResult>),
-    /// Tell the log how a motion ended.
-    Over(PlaceObjectResult),
+    /// Tell the log how the motion of a plan ended.
+    Over(Box<PlacementPlan>, PlaceObjectResult),
 }
 
 /// At most one motion under way.
@@ -249,10 +249,9 @@ impl Carrier {
     fn end(&mut self, outcome: u8, reason: &str) -> Vec<Deed> {
         let Some(motion) = self.motion.take() else { return Vec::new() };
         let result = result_of(&motion.plan, outcome, reason);
-        match motion.asked {
-            Some(goal_id) => vec![finish(goal_id, result.clone()), Deed::Over(result)],
-            None => vec![Deed::Over(result)],
-        }
+        let mut deeds: Vec<Deed> = motion.asked.map(|goal_id| finish(goal_id, result.clone())).into_iter().collect();
+        deeds.push(Deed::Over(motion.plan, result));
+        deeds
     }
 
     /// Different for every goal of every run.

@@ -8,6 +8,7 @@ mod node;
 mod robot;
 mod run;
 mod settings;
+mod sharing;
 
 pub use carrying::Deed;
 pub use node::{Event, Output, PlacementPlanner, Request, is_task};

@@ -2,14 +2,18 @@
 
 use crate::asked::SAME_START;
 use crate::carrying::{Carrier, Deed};
+use crate::sharing::{Sharing, markers};
 use crate::{RobotFiles, Settings, convert};
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::control_msgs::FollowJointTrajectory;
+use apprentice_msgs::moveit_msgs::PlanningScene;
 use apprentice_msgs::msg::{
     LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, SceneObject, TableScene,
 };
 use apprentice_msgs::sensor_msgs::JointState;
+use apprentice_msgs::tf2_msgs::TFMessage;
+use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::{ActionEvent, ActionRequest};
 use exchange::{check_posterior, is_about_a_table, is_about_scene, scene_from_message};
 use placement::{LossBatch, MAP_SIDE, Planner};
@@ -59,6 +63,12 @@ pub enum Output {
     Deed(Deed),
     /// A goal of `place_object` is taken.
     Accept(bus::GoalId),
+    /// The table for MoveIt.
+    PlanningScene(Box<PlanningScene>),
+    /// Where things stand, for tf.
+    Transforms(TFMessage),
+    /// The plan, drawn.
+    Markers(Box<MarkerArray>),
     /// Something a person should know.
     Warn(String),
 }
@@ -98,6 +108,7 @@ pub struct PlacementPlanner {
     pub(crate) plan: Option<Box<PlanMessage>>,
     moved: Option<u64>,
     pub(crate) carrier: Carrier,
+    sharing: Sharing,
 }
 
 impl PlacementPlanner {
@@ -127,15 +138,47 @@ impl PlacementPlanner {
             guess: None,
             plan: None,
             moved: None,
+            sharing: Sharing::default(),
         }
     }
 
     /// Takes one event. A plan depends on the settings and on what it names, never on `now`; whether and when the arm moves
     /// does.
     pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
+        let again = matches!(event, Event::Republish);
         let mut outputs = self.supervise(now, &event);
         outputs.extend(self.take(now, event));
+        outputs.extend(self.share(now, &outputs, again));
         outputs
+    }
+
+    /// What other programs are to be shown after `outputs`.
+    fn share(&mut self, now: Time, outputs: &[Output], again: bool) -> Vec<Output> {
+        let mut shown = Vec::new();
+        for output in outputs {
+            match output {
+                Output::Plan(plan) => shown.push(Output::Markers(Box::new(markers(plan, &self.path_m(plan))))),
+                Output::Deed(Deed::Send(..)) => self.sharing.picked_up(),
+                // An empty trajectory only stops the arm.
+                Output::Deed(Deed::Publish(trajectory)) if !trajectory.points.is_empty() => self.sharing.picked_up(),
+                Output::Deed(Deed::Over(plan, result)) if result.outcome == PlaceObjectResult::DONE => {
+                    self.sharing.put_down(plan);
+                }
+                _ => {}
+            }
+        }
+        shown.extend(self.sharing.show(now, self.scene.as_deref(), again));
+        shown
+    }
+
+    /// The way of the tool, in the table's frame.
+    fn path_m(&self, plan: &PlanMessage) -> Vec<[f64; 3]> {
+        let (Some(arm), Ok(start)) = (self.planner.manipulator(), convert::joints(&plan.start)) else {
+            return Vec::new();
+        };
+        let points = plan.trajectory.points.iter().map(|point| &point.positions[..]);
+        let path = arm.tool_path(&plan.scene.header.frame_id, &start, &plan.trajectory.joint_names, points);
+        path.unwrap_or_default()
     }
 
     fn take(&mut self, now: Time, event: Event) -> Vec<Output> {
@@ -167,6 +210,7 @@ impl PlacementPlanner {
                 }
                 self.scene = Some(scene);
                 self.plan = None;
+                self.sharing.scene_changed();
             }
             Event::Lesson(lesson) => {
                 let taught = (lesson.state == LessonStatus::TAUGHT).then_some(lesson.revision);

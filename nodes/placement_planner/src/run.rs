@@ -3,9 +3,12 @@
 use crate::{Deed, Event, Output, PlacementPlanner, RobotFiles, Settings};
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::control_msgs::FollowJointTrajectory;
+use apprentice_msgs::moveit_msgs::PlanningScene;
 use apprentice_msgs::msg::PlacementPlan;
 use apprentice_msgs::std_msgs;
+use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
+use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
 use std::time::Duration;
 
@@ -20,6 +23,9 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let guess = bus.publisher::<PlacementPlan>("guess", Qos::State)?;
     let plan = bus.publisher::<PlacementPlan>("plan", Qos::State)?;
     let trajectory = bus.publisher::<JointTrajectory>("/joint_trajectory", Qos::Event)?;
+    let planning_scene = bus.publisher::<PlanningScene>("/planning_scene", Qos::State)?;
+    let transforms = bus.publisher::<TFMessage>("/tf", Qos::Event)?;
+    let markers = bus.publisher::<MarkerArray>("plan_markers", Qos::State)?;
     bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
     bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
@@ -73,11 +79,14 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                     (Deed::Send(..) | Deed::Cancel(_) | Deed::AskResult(_), None) => {}
                     (Deed::Feedback(goal_id, feedback), _) => place.feedback(goal_id, feedback),
                     (Deed::Finish(goal_id, end, result), _) => place.finish(goal_id, end, *result),
-                    (Deed::Over(result), _) if result.outcome == PlaceObjectResult::DONE => {
+                    (Deed::Over(_, result), _) if result.outcome == PlaceObjectResult::DONE => {
                         log::info!("the motion is over: {}", result.reason);
                     }
-                    (Deed::Over(result), _) => log::warn!("the motion is over: {}", result.reason),
+                    (Deed::Over(_, result), _) => log::warn!("the motion is over: {}", result.reason),
                 },
+                Output::PlanningScene(message) => planning_scene.publish(&message)?,
+                Output::Transforms(message) => transforms.publish(&message)?,
+                Output::Markers(message) => markers.publish(&message)?,
                 Output::Warn(text) => log::warn!("{text}"),
             }
         }

@@ -52,7 +52,7 @@ fn nothing_moves_before_the_lesson_is_taught_and_then_once() {
     );
     moved.objects[0].pose.position.x = 0.8;
     let outputs = step(&mut node, Event::Scene(Box::new(moved)));
-    let [Output::Deed(Deed::Publish(halt)), Output::Deed(Deed::Over(over)), Output::Plan(plan)] = outputs.as_slice()
+    let [Output::Deed(Deed::Publish(halt)), Output::Deed(Deed::Over(_, over)), Output::Plan(plan)] = outputs.as_slice()
     else {
         panic!("{outputs:?}")
     };

@@ -149,6 +149,32 @@ impl Manipulator {
         q
     }
 
+    /// The way of the tool's origin in the table's frame, metres: one point for each of `points`, positions of the joints `names`;
+    /// other joints stay where `start` has them. `None` where nobody says where the table is.
+    pub fn tool_path<'p>(
+        &self,
+        table_frame: &str,
+        start: &[(String, f64)],
+        names: &[String],
+        points: impl Iterator<Item = &'p [f64]>,
+    ) -> Option<Vec<[f64; 3]>> {
+        let table_from_root = self.root_from_table(table_frame)?.inverse();
+        let mut joints = start.to_vec();
+        let mut poses = Vec::new();
+        let path = points.map(|positions| {
+            for (name, &position) in names.iter().zip(positions) {
+                match joints.iter_mut().find(|(joint, _)| joint == name) {
+                    Some((_, at)) => *at = position,
+                    None => joints.push((name.clone(), position)),
+                }
+            }
+            self.robot.link_poses(&self.configuration(&joints), &mut poses);
+            let tool = table_from_root * poses[self.chain.tool];
+            [tool.translation.x, tool.translation.y, tool.translation.z]
+        });
+        Some(path.collect())
+    }
+
     fn root_from_table(&self, frame: &str) -> Option<Isometry3<f64>> {
         match (self.robot.link_index(frame), self.settings.table) {
             (Some(link), _) => self.robot.fixed_pose(link),
@@ -240,6 +266,11 @@ fn solid(object: &Object) -> Solid {
             Solid::Box { half_extents: [0.5 * width_m, 0.5 * depth_m, 0.5 * height_m] }
         }
     }
+}
+
+/// Height of the target's base where it stands at a point, metres above the table: on what supports it, if anything does.
+pub fn resting_height_m(scene: &Scene, at_m: Point) -> f64 {
+    base_height_m(scene, at_m, 0.0)
 }
 
 /// Height of the target's base when it is released at a point, metres: above what supports it, if anything does.

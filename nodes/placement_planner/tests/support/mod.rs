@@ -68,8 +68,11 @@ pub fn joints() -> JointState {
     }
 }
 
+/// What a node does about an event, what it shows to other programs left out.
 pub fn step(node: &mut PlacementPlanner, event: Event) -> Vec<Output> {
-    node.step(Time::default(), event)
+    let mut outputs = node.step(Time::default(), event);
+    outputs.retain(|o| !matches!(o, Output::PlanningScene(_) | Output::Transforms(_) | Output::Markers(_)));
+    outputs
 }
 
 /// A planner with robot and joints.
