@@ -41,9 +41,9 @@ pub(crate) fn markers(plan: &PlacementPlan, path_m: &[[f64; 3]]) -> MarkerArray 
             r#type: if target.shape == SceneObject::SHAPE_BOX { Marker::CUBE } else { Marker::CYLINDER },
             pose: apprentice_msgs::geometry_msgs::Pose {
                 position: Point { x: place.x, y: place.y, z: place.z + 0.5 * size.z },
-                orientation: target.pose.orientation.clone(),
+                orientation: target.pose.orientation,
             },
-            scale: size.clone(),
+            scale: *size,
             color: colour(if plan.outcome == PlacementPlan::PLANNED { GOOD } else { BAD }, 0.35),
             ..blank(frame, "target", 0)
         });

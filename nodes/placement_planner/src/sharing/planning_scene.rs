@@ -29,7 +29,7 @@ pub(super) fn diff(
     let gone = told.1.iter().filter(|id| !ids.contains(*id)).map(|id| removed(&told.0, id));
     let collision_objects = gone.chain(objects).collect();
     *told = (frame.clone(), ids);
-    let colour = |id: &str, color: &ColorRGBA| ObjectColor { id: id.to_owned(), color: color.clone() };
+    let colour = |id: &str, color: &ColorRGBA| ObjectColor { id: id.to_owned(), color: *color };
     PlanningScene {
         object_colors: vec![colour(TABLE, &WOOD), colour(&scene.target.id, &TARGET)],
         world: PlanningSceneWorld { collision_objects, ..PlanningSceneWorld::default() },
@@ -69,7 +69,7 @@ fn standing(frame: &str, object: &SceneObject) -> CollisionObject {
     };
     CollisionObject {
         header: header(frame),
-        pose: object.pose.clone(),
+        pose: object.pose,
         id: object.id.clone(),
         primitives: vec![solid],
         primitive_poses: vec![at(0.0, 0.0, 0.5 * size.z)],

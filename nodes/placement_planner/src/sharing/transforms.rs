@@ -18,7 +18,7 @@ pub(super) fn transforms(now: Time, frame: &str, solids: &[&SceneObject]) -> TFM
             child_frame_id: format!("{PREFIX}{}", object.id),
             transform: Transform {
                 translation: Vector3 { x: at.x, y: at.y, z: at.z },
-                rotation: object.pose.orientation.clone(),
+                rotation: object.pose.orientation,
             },
         }
     };

@@ -2,6 +2,7 @@
 
 mod banded;
 mod chain;
+mod conjugate;
 mod order;
 mod sweeps;
 

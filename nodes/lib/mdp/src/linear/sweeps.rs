@@ -1,13 +1,12 @@
 //! Gauss–Seidel sweeps for x = b + W x, states downstream first, with a bound on the error.
 
 use crate::MdpError;
+use crate::linear::conjugate::{History, Step};
 
 /// Sweeps without a smaller change after which there is nothing to hope for.
 const PATIENCE: usize = 50;
 /// Sweeps after which those that would follow are taken together.
 const ROUNDS: usize = 4;
-/// Rounds of pushing visits downstream that the next takes into account.
-const HISTORY: usize = 6;
 
 /// Relative error that solutions have at most: 1e-13, or what rounding leaves at a long horizon.
 pub(crate) fn precision(gamma: f64) -> f64 {
@@ -278,70 +277,6 @@ impl Sweeps {
         }
         pushed
     }
-}
-
-/// A direction d, and (I − Wᵀ) d.
-#[derive(Debug, Clone)]
-struct Step {
-    direction: Vec<f64>,
-    image: Vec<f64>,
-    /// |image|².
-    square: f64,
-}
-
-/// The last steps, whose images are orthogonal.
-struct History {
-    steps: Vec<Step>,
-    n: usize,
-    /// Steps taken since the start.
-    taken: usize,
-}
-
-impl History {
-    fn new(n: usize) -> Self {
-        Self { steps: vec![], n, taken: 0 }
-    }
-
-    /// Room for the next step, in place of the oldest.
-    fn next(&mut self) -> &mut Step {
-        if self.steps.len() < HISTORY {
-            self.steps.push(Step { direction: vec![0.0; self.n], image: vec![0.0; self.n], square: 0.0 });
-        }
-        let place = self.taken % HISTORY;
-        self.taken += 1;
-        &mut self.steps[place]
-    }
-
-    fn last(&self) -> &Step {
-        &self.steps[(self.taken - 1) % HISTORY]
-    }
-
-    /// Takes the parts along the others out of the last step; the share of it that leaves least of `left`.
-    fn conjugate(&mut self, left: &[f64]) -> f64 {
-        let place = (self.taken - 1) % HISTORY;
-        let (older, rest) = self.steps.split_at_mut(place);
-        let (step, newer) = rest.split_first_mut().expect("a step was taken");
-        for other in older.iter().chain(&*newer).filter(|other| other.square > 0.0) {
-            let part = dot(&step.image, &other.image) / other.square;
-            step.image.iter_mut().zip(&other.image).for_each(|(x, y)| *x -= part * y);
-            step.direction.iter_mut().zip(&other.direction).for_each(|(x, y)| *x -= part * y);
-        }
-        step.square = dot(&step.image, &step.image);
-        if step.square > 0.0 { dot(left, &step.image) / step.square } else { 1.0 }
-    }
-}
-
-/// xᵀy, summed in lanes of their own, which vector instructions add.
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let (x_blocks, y_blocks) = (x.chunks_exact(8), y.chunks_exact(8));
-    let rest: f64 = x_blocks.remainder().iter().zip(y_blocks.remainder()).map(|(x, y)| x * y).sum();
-    let mut lanes = [0.0; 8];
-    for (x, y) in x_blocks.zip(y_blocks) {
-        for ((lane, x), y) in lanes.iter_mut().zip(x).zip(y) {
-            *lane += x * y;
-        }
-    }
-    lanes.iter().sum::<f64>() + rest
 }
 
 /// 1 / (1 − W_ss).
