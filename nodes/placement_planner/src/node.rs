@@ -2,7 +2,7 @@
 
 use crate::asked::SAME_START;
 use crate::carrying::{Carrier, Deed};
-use crate::sharing::{Sharing, markers};
+use crate::sharing::{Sharing, Way};
 use crate::{RobotFiles, Settings, convert};
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::builtin_interfaces::Time;
@@ -16,7 +16,7 @@ use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::{ActionEvent, ActionRequest};
 use exchange::{check_posterior, is_about_a_table, is_about_scene, scene_from_message};
-use placement::{LossBatch, MAP_SIDE, Planner};
+use placement::{LossBatch, MAP_SIDE, Manipulator, Planner};
 use scene::Scene;
 
 /// Perception is this exact: an object that moved less stands where it stood, metres.
@@ -155,30 +155,24 @@ impl PlacementPlanner {
     /// What other programs are to be shown after `outputs`.
     fn share(&mut self, now: Time, outputs: &[Output], again: bool) -> Vec<Output> {
         let mut shown = Vec::new();
+        let way = |arm: Option<&Manipulator>, plan| arm.map(|arm| Way::new(arm, plan)).unwrap_or_default();
         for output in outputs {
             match output {
-                Output::Plan(plan) => shown.push(Output::Markers(Box::new(markers(plan, &self.path_m(plan))))),
+                Output::Plan(plan) => shown.push(self.sharing.draw(plan, &way(self.planner.manipulator(), plan))),
                 Output::Deed(Deed::Send(..)) => self.sharing.picked_up(),
                 // An empty trajectory only stops the arm.
                 Output::Deed(Deed::Publish(trajectory)) if !trajectory.points.is_empty() => self.sharing.picked_up(),
                 Output::Deed(Deed::Over(plan, result)) if result.outcome == PlaceObjectResult::DONE => {
-                    self.sharing.put_down(plan);
+                    self.sharing.put_down(plan, &way(self.planner.manipulator(), plan));
                 }
                 _ => {}
             }
         }
+        if self.plan.is_none() {
+            shown.extend(self.sharing.wipe());
+        }
         shown.extend(self.sharing.show(now, self.scene.as_deref(), again));
         shown
-    }
-
-    /// The way of the tool, in the table's frame.
-    fn path_m(&self, plan: &PlanMessage) -> Vec<[f64; 3]> {
-        let (Some(arm), Ok(start)) = (self.planner.manipulator(), convert::joints(&plan.start)) else {
-            return Vec::new();
-        };
-        let points = plan.trajectory.points.iter().map(|point| &point.positions[..]);
-        let path = arm.tool_path(&plan.scene.header.frame_id, &start, &plan.trajectory.joint_names, points);
-        path.unwrap_or_default()
     }
 
     fn take(&mut self, now: Time, event: Event) -> Vec<Output> {
@@ -208,9 +202,9 @@ impl PlacementPlanner {
                 if self.scene.as_ref().is_some_and(|known| same_table(known, &scene)) {
                     return Vec::new();
                 }
+                self.sharing.scene_changed(self.scene.as_deref(), &scene);
                 self.scene = Some(scene);
                 self.plan = None;
-                self.sharing.scene_changed();
             }
             Event::Lesson(lesson) => {
                 let taught = (lesson.state == LessonStatus::TAUGHT).then_some(lesson.revision);
@@ -344,7 +338,7 @@ impl PlacementPlanner {
     /// Makes what is missing and can be made.
     pub(crate) fn update(&mut self, now: Time) -> Vec<Output> {
         let Some(posterior) = self.posterior.take() else { return Vec::new() };
-        let names = self.planner.manipulator().map(placement::Manipulator::joint_names).unwrap_or_default();
+        let names = self.planner.manipulator().map(Manipulator::joint_names).unwrap_or_default();
         let start = convert::start(&names, &self.joints);
         let mut outputs = Vec::new();
         let query = self.query.take();

@@ -2,7 +2,7 @@
 
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::moveit_msgs::{CollisionObject, PlanningScene};
-use apprentice_msgs::msg::{LessonStatus, PlacementCandidate, PlacementPlan, TableScene};
+use apprentice_msgs::msg::{LessonStatus, PlacementCandidate, PlacementPlan, Posterior, TableScene};
 use apprentice_msgs::shape_msgs::SolidPrimitive;
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::visualization_msgs::{Marker, MarkerArray};
@@ -84,10 +84,18 @@ fn moveit_sees_the_same_table() {
     let shown = show(&mut node, 4, on_table(&table()));
     assert_eq!(deeds(&shown.scenes[0]), [("tray", REMOVE), ("table_top", ADD), ("cup", ADD)]);
     assert_eq!(deeds(&show(&mut node, 5, Event::Republish).scenes[0]), [("table_top", ADD), ("cup", ADD)]);
+    // MoveIt sees objects as the planner takes them: upright, and on the table.
+    let mut odd = scene_to_message(&with_box, Time::default());
+    odd.objects[0].pose.position.z = 0.7;
+    odd.objects[1].pose.orientation.z *= 3.0;
+    odd.objects[1].pose.orientation.w *= 3.0;
+    let shown = show(&mut node, 6, Event::Scene(Box::new(odd)));
+    assert_eq!(shown.scenes[0].world.collision_objects[1].pose.position.z, 0.0);
+    assert!((shown.transforms[0].transforms[1].transform.rotation.w - 0.25_f64.cos()).abs() < 1e-12);
     // A table that nothing can be planned on is not shown.
     let mut broken = scene_to_message(&with_box, Time::default());
     broken.objects[0].size_m.z = f64::NAN;
-    assert!(show(&mut node, 6, Event::Scene(Box::new(broken))).scenes.is_empty());
+    assert!(show(&mut node, 7, Event::Scene(Box::new(broken))).scenes.is_empty());
 }
 
 #[test]
@@ -115,10 +123,42 @@ fn things_have_frames_and_what_was_put_down_stands_there() {
     assert_eq!(deeds(&shown.scenes[0]), [("table_top", ADD), ("cup", ADD), ("vase", ADD)]);
     let vase = shown.transforms[0].transforms.iter().find(|t| t.child_frame_id == "object/vase").expect("it stands");
     assert!((vase.transform.translation.x - 0.5).abs() < 1e-6 && vase.transform.translation.z == 0.0);
-    // Perception has the last word.
+    // Perception does not list the vase; it stands there all the same when a cup is moved, until the vase is seen elsewhere.
     let other = Scene { objects: vec![object("cup", 0.3, 0.25, 0.05)], ..table() };
     let shown = show(&mut node, 60, on_table(&other));
+    assert_eq!(deeds(&shown.scenes[0]), [("table_top", ADD), ("cup", ADD), ("vase", ADD)]);
+    // Another table has no vase on it.
+    let shown = show(&mut node, 61, on_table(&Scene { id: "next".into(), ..table() }));
     assert_eq!(deeds(&shown.scenes[0]), [("vase", REMOVE), ("table_top", ADD), ("cup", ADD)]);
+}
+
+#[test]
+fn what_is_put_down_is_turned_as_the_hand_turns_it() {
+    let mut node = ready();
+    let bar = Shape::Box { width_m: 0.12, depth_m: 0.03, height_m: 0.1 };
+    let with_bar = Scene { target: Object { shape: bar, ..object("vase", 0.0, 0.0, 0.04) }, ..table() };
+    show(&mut node, 1, on_table(&with_bar));
+    let task = scene_to_message(&with_bar, Time::default());
+    let shown = show(&mut node, 2, Event::Posterior(Box::new(Posterior { task, ..posterior(1) })));
+    let robot = arm::Robot::from_urdf(support::URDF).expect("the arm of the tests");
+    let (plan, markers) = (&shown.plans[0], &shown.markers[0].markers);
+    let end = plan.trajectory.points.last().expect("it is reached");
+    // The hand's x axis, by the robot itself: this arm's root stands in the table's frame as its fixed link says.
+    let joints: Vec<f64> = robot
+        .joint_names()
+        .map(|name| {
+            let moved = plan.trajectory.joint_names.iter().position(|joint| joint == name);
+            let stays = || joints().name.iter().position(|joint| joint == name).map(|i| joints().position[i]);
+            moved.map(|i| end.positions[i]).or_else(stays).expect("every joint is known")
+        })
+        .collect();
+    let mut poses = Vec::new();
+    robot.link_poses(&joints, &mut poses);
+    let link = |name: &str| poses[robot.link_index(name).expect("a link")];
+    let x_axis = link("table").rotation.inverse() * link("tool0").rotation * arm::Vector3::x();
+    let target = markers.iter().find(|marker| marker.ns == "target" && marker.r#type == Marker::CUBE).expect("a bar");
+    let drawn = 2.0 * target.pose.orientation.z.atan2(target.pose.orientation.w);
+    assert!((drawn - x_axis.y.atan2(x_axis.x)).sin().abs() < 1e-9, "{drawn}");
 }
 
 #[test]
@@ -146,4 +186,12 @@ fn a_plan_is_drawn_with_what_became_of_each_place() {
     ids.dedup();
     assert_eq!(ids.len(), markers.len());
     assert!(markers.iter().all(|marker| marker.header.frame_id == "table" && marker.pose.position.x.is_finite()));
+
+    // The picture of a plan that holds no more goes away: nothing can be planned on this table.
+    let mut broken = scene_to_message(&table(), Time::default());
+    broken.objects[0].size_m.z = f64::NAN;
+    let shown = show(&mut node, 3, Event::Scene(Box::new(broken)));
+    let [wiped] = shown.markers[0].markers.as_slice() else { panic!("one marker") };
+    assert_eq!(wiped.action, Marker::DELETEALL);
+    assert!(show(&mut node, 4, Event::Republish).markers.is_empty(), "said once; the topic keeps it");
 }

@@ -2,7 +2,7 @@
 
 use crate::{Follower, LayoutError, RobotError, RobotModel, Settings, task_scene};
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
+use apprentice_msgs::geometry_msgs::{Transform, TransformStamped, Vector3};
 use apprentice_msgs::msg::TableScene;
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::std_msgs::{self, Header};
@@ -117,7 +117,6 @@ impl SimulatedTableNode {
     }
 
     fn transform(&self, stamp: Time) -> TFMessage {
-        let (sin, cos) = (0.5 * self.base_yaw_rad).sin_cos();
         let [x, y, z] = self.base_m;
         TFMessage {
             transforms: vec![TransformStamped {
@@ -125,7 +124,7 @@ impl SimulatedTableNode {
                 child_frame_id: self.robot.root.clone(),
                 transform: Transform {
                     translation: Vector3 { x, y, z },
-                    rotation: Quaternion { x: 0.0, y: 0.0, z: sin, w: cos },
+                    rotation: exchange::upright(self.base_yaw_rad),
                 },
             }],
         }

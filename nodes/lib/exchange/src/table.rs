@@ -1,7 +1,8 @@
 //! Tables: scenes, objects and points.
 
+use crate::drawing::pose_at;
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::geometry_msgs::{Point as PointMessage, Pose, Quaternion, Vector3};
+use apprentice_msgs::geometry_msgs::{Point as PointMessage, Quaternion, Vector3};
 use apprentice_msgs::msg::{SceneObject, TableScene};
 use apprentice_msgs::std_msgs::Header;
 use scene::{MAX_OBJECTS, Object, Point, Scene, SceneError, Shape};
@@ -132,16 +133,12 @@ fn object_to_message(object: &Object) -> SceneObject {
             (SceneObject::SHAPE_BOX, Vector3 { x: width_m, y: depth_m, z: height_m })
         }
     };
-    let (sin, cos) = (0.5 * object.yaw_rad).sin_cos();
     SceneObject {
         id: object.id.clone(),
         label: object.label.clone(),
         shape,
         size_m,
-        pose: Pose {
-            position: point_to_message(object.position_m),
-            orientation: Quaternion { x: 0.0, y: 0.0, z: sin, w: cos },
-        },
+        pose: pose_at([object.position_m.x, object.position_m.y, 0.0], object.yaw_rad),
         supports: object.supports,
     }
 }

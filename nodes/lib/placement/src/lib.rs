@@ -20,7 +20,7 @@ mod trajectory;
 pub use candidate::{Candidate, Verdict};
 pub use choice::{Choice, NEAR_M};
 pub use losses::{LossBatch, SceneLosses, placement_losses, placement_optima};
-pub use manipulator::{Manipulator, ManipulatorError, resting_height_m};
+pub use manipulator::{Manipulator, ManipulatorError, TABLE_THICKNESS_M, resting_height_m};
 pub use plan::{CellState, MAP_SIDE, PlacementPlan, PlanOutcome, Planner};
 pub use reach::ReachMap;
 pub use settings::{MotionSettings, TablePose};

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 /// Thickness of the slab that stands for the table, metres.
-const SLAB_M: f64 = 0.04;
+pub const TABLE_THICKNESS_M: f64 = 0.04;
 
 /// A joint that is slower than this cannot be used, radians or metres per second.
 const SLOWEST: f64 = 1e-3;
@@ -149,19 +149,19 @@ impl Manipulator {
         q
     }
 
-    /// The way of the tool's origin in the table's frame, metres: one point for each of `points`, positions of the joints `names`;
-    /// other joints stay where `start` has them. `None` where nobody says where the table is.
-    pub fn tool_path<'p>(
+    /// The tool in the table's frame along a trajectory: one pose for each of `points`, positions of the joints `names`; other
+    /// joints stay where `start` has them. `None` where nobody says where the table is.
+    pub fn tool_poses<'p>(
         &self,
         table_frame: &str,
         start: &[(String, f64)],
         names: &[String],
         points: impl Iterator<Item = &'p [f64]>,
-    ) -> Option<Vec<[f64; 3]>> {
+    ) -> Option<Vec<Isometry3<f64>>> {
         let table_from_root = self.root_from_table(table_frame)?.inverse();
         let mut joints = start.to_vec();
         let mut poses = Vec::new();
-        let path = points.map(|positions| {
+        let tools = points.map(|positions| {
             for (name, &position) in names.iter().zip(positions) {
                 match joints.iter_mut().find(|(joint, _)| joint == name) {
                     Some((_, at)) => *at = position,
@@ -169,10 +169,9 @@ impl Manipulator {
                 }
             }
             self.robot.link_poses(&self.configuration(&joints), &mut poses);
-            let tool = table_from_root * poses[self.chain.tool];
-            [tool.translation.x, tool.translation.y, tool.translation.z]
+            table_from_root * poses[self.chain.tool]
         });
-        Some(path.collect())
+        Some(tools.collect())
     }
 
     fn root_from_table(&self, frame: &str) -> Option<Isometry3<f64>> {
@@ -190,7 +189,7 @@ impl Manipulator {
     pub(crate) fn at_table(&self, scene: &Scene, with_objects: bool) -> Option<Cell<'_>> {
         let root_from_table = self.root_from_table(&scene.frame)?;
         let mut world = World::new();
-        let half_extents = [0.5 * scene.width_m, 0.5 * scene.depth_m, 0.5 * SLAB_M];
+        let half_extents = [0.5 * scene.width_m, 0.5 * scene.depth_m, 0.5 * TABLE_THICKNESS_M];
         let middle = Translation3::new(half_extents[0], half_extents[1], -half_extents[2]);
         world.add(Obstacle {
             name: "table".into(),

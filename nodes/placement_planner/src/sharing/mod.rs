@@ -3,32 +3,39 @@
 mod markers;
 mod planning_scene;
 mod transforms;
+mod way;
 
-pub(crate) use markers::markers;
+pub(crate) use way::Way;
 
 use crate::Output;
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion};
 use apprentice_msgs::msg::{PlacementPlan, SceneObject, TableScene};
-use exchange::scene_from_message;
+use exchange::{pose_at, scene_from_message, scene_to_message};
 use placement::resting_height_m;
+use scene::Point;
 use std::collections::BTreeSet;
 
-/// The table as it was shown last.
+/// What was shown last.
 #[derive(Debug, Default)]
 pub(crate) struct Sharing {
-    /// What was put down since the scene was heard last, at its place.
+    /// What the arm put down on this table, at its place.
     placed: Option<SceneObject>,
     /// Whether something changed that was not shown yet.
     changed: bool,
     /// Frame and ids of what MoveIt was told stands there.
     told: (String, BTreeSet<String>),
+    /// The frame of the plan that is drawn, if one is.
+    drawn: Option<String>,
 }
 
 impl Sharing {
-    /// The table is another.
-    pub(crate) fn scene_changed(&mut self) {
-        self.placed = None;
+    /// The table changed from what was `known`. What the arm put down still stands there, seen or not, unless the table or the
+    /// target is another.
+    pub(crate) fn scene_changed(&mut self, known: Option<&TableScene>, scene: &TableScene) {
+        let of = |scene: &TableScene| (scene.id.clone(), scene.target.id.clone(), scene.header.frame_id.clone());
+        if known.map(of) != Some(of(scene)) {
+            self.placed = None;
+        }
         self.changed = true;
     }
 
@@ -37,48 +44,50 @@ impl Sharing {
         self.changed |= self.placed.take().is_some();
     }
 
-    /// The target of a plan stands where the plan puts it.
-    pub(crate) fn put_down(&mut self, plan: &PlacementPlan) {
-        self.placed = standing(plan);
+    /// The target of a plan stands where its way ends.
+    pub(crate) fn put_down(&mut self, plan: &PlacementPlan, way: &Way) {
+        self.placed = standing(plan, way);
         self.changed |= self.placed.is_some();
     }
 
     /// The table for MoveIt and tf if it changed since, or if `again`.
     pub(crate) fn show(&mut self, now: Time, scene: Option<&TableScene>, again: bool) -> Vec<Output> {
-        let Some(scene) = scene.filter(|_| self.changed || again) else { return Vec::new() };
-        // What cannot be planned with is not shown either; the plan says why.
-        if scene_from_message(scene).is_err() {
+        if !(self.changed || again) {
             return Vec::new();
         }
         self.changed = false;
-        let solids: Vec<&SceneObject> = scene.objects.iter().chain(&self.placed).collect();
-        let message = planning_scene::diff(scene, &solids, &mut self.told);
+        // What cannot be planned with is not shown either; the plan says why. What can is shown as the planner takes it.
+        let Some(Ok(scene)) = scene.map(scene_from_message) else { return Vec::new() };
+        let scene = scene_to_message(&scene, Time::default());
+        let is_seen = |placed: &&SceneObject| scene.objects.iter().any(|object| object.id == placed.id);
+        let unseen = self.placed.iter().filter(|placed| !is_seen(placed));
+        let solids: Vec<&SceneObject> = scene.objects.iter().chain(unseen).collect();
+        let message = planning_scene::diff(&scene, &solids, &mut self.told);
         let transforms = transforms::transforms(now, &scene.header.frame_id, &solids);
         vec![Output::PlanningScene(Box::new(message)), Output::Transforms(transforms)]
     }
+
+    /// A new plan, drawn.
+    pub(crate) fn draw(&mut self, plan: &PlacementPlan, way: &Way) -> Output {
+        self.drawn = Some(plan.scene.header.frame_id.clone());
+        Output::Markers(Box::new(markers::markers(plan, way)))
+    }
+
+    /// Takes away the picture of a plan that holds no more.
+    pub(crate) fn wipe(&mut self) -> Option<Output> {
+        self.drawn.take().map(|frame| Output::Markers(Box::new(markers::no_markers(&frame))))
+    }
 }
 
-/// The target where a plan puts it; `None` without a place.
-fn standing(plan: &PlacementPlan) -> Option<SceneObject> {
+/// The target where a plan puts it, turned as the hand turns it there; `None` without a place.
+fn standing(plan: &PlacementPlan, way: &Way) -> Option<SceneObject> {
     let at = &plan.robust_placement;
     let scene = scene_from_message(&plan.scene).ok()?;
     if !(at.x.is_finite() && at.y.is_finite()) {
         return None;
     }
-    let z = resting_height_m(&scene, scene::Point::new(at.x, at.y));
-    // It is carried upright, with the heading that the scene gives it.
-    let orientation = upright(scene.target.yaw_rad);
-    let pose = Pose { position: Point { x: at.x, y: at.y, z }, orientation };
-    Some(SceneObject { pose, ..plan.scene.target.clone() })
-}
-
-/// Turned about the vertical.
-fn upright(yaw_rad: f64) -> Quaternion {
-    let (sin, cos) = (0.5 * yaw_rad).sin_cos();
-    Quaternion { x: 0.0, y: 0.0, z: sin, w: cos }
-}
-
-/// At a point, not turned.
-fn at(x: f64, y: f64, z: f64) -> Pose {
-    Pose { position: Point { x, y, z }, orientation: upright(0.0) }
+    let z_m = resting_height_m(&scene, Point::new(at.x, at.y));
+    let yaw_rad = way.heading_rad.unwrap_or(scene.target.yaw_rad);
+    let target = scene_to_message(&scene, Time::default()).target;
+    Some(SceneObject { pose: pose_at([at.x, at.y, z_m], yaw_rad), ..target })
 }

@@ -1,16 +1,15 @@
 //! The table as MoveIt's planning scene: a diff that any `move_group` takes from `/planning_scene`.
 
-use super::at;
 use apprentice_msgs::moveit_msgs::{CollisionObject, ObjectColor, PlanningScene, PlanningSceneWorld, RobotState};
 use apprentice_msgs::msg::{SceneObject, TableScene};
 use apprentice_msgs::shape_msgs::SolidPrimitive;
 use apprentice_msgs::std_msgs::{ColorRGBA, Header};
+use exchange::pose_at;
+use placement::TABLE_THICKNESS_M;
 use std::collections::BTreeSet;
 
 /// The id of the table top; an object of this id gives way.
 const TABLE: &str = "table_top";
-/// What the planner takes the table top to be, metres.
-const TABLE_THICKNESS_M: f64 = 0.04;
 const WOOD: ColorRGBA = ColorRGBA { r: 0.87, g: 0.80, b: 0.68, a: 1.0 };
 const TARGET: ColorRGBA = ColorRGBA { r: 0.85, g: 0.46, b: 0.17, a: 1.0 };
 
@@ -47,10 +46,10 @@ fn header(frame: &str) -> Header {
 fn table(frame: &str, scene: &TableScene) -> CollisionObject {
     CollisionObject {
         header: header(frame),
-        pose: at(0.5 * scene.width_m, 0.5 * scene.depth_m, -0.5 * TABLE_THICKNESS_M),
+        pose: pose_at([0.5 * scene.width_m, 0.5 * scene.depth_m, -0.5 * TABLE_THICKNESS_M], 0.0),
         id: TABLE.into(),
         primitives: vec![cuboid([scene.width_m, scene.depth_m, TABLE_THICKNESS_M])],
-        primitive_poses: vec![at(0.0, 0.0, 0.0)],
+        primitive_poses: vec![pose_at([0.0; 3], 0.0)],
         operation: CollisionObject::ADD,
         ..CollisionObject::default()
     }
@@ -72,7 +71,7 @@ fn standing(frame: &str, object: &SceneObject) -> CollisionObject {
         pose: object.pose,
         id: object.id.clone(),
         primitives: vec![solid],
-        primitive_poses: vec![at(0.0, 0.0, 0.5 * size.z)],
+        primitive_poses: vec![pose_at([0.0, 0.0, 0.5 * size.z], 0.0)],
         operation: CollisionObject::ADD,
         ..CollisionObject::default()
     }
@@ -81,7 +80,7 @@ fn standing(frame: &str, object: &SceneObject) -> CollisionObject {
 fn removed(frame: &str, id: &str) -> CollisionObject {
     CollisionObject {
         header: header(frame),
-        pose: at(0.0, 0.0, 0.0),
+        pose: pose_at([0.0; 3], 0.0),
         id: id.to_owned(),
         operation: CollisionObject::REMOVE,
         ..CollisionObject::default()

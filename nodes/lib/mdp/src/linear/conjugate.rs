@@ -1,6 +1,8 @@
 //! Conjugate directions for equations without symmetry (the generalised conjugate residual method, Eisenstat, Elman and Schultz
 //! 1983), of which the last few are kept.
 
+use crate::linear::dot;
+
 /// Steps that the next takes into account.
 const HISTORY: usize = 6;
 
@@ -40,6 +42,11 @@ impl History {
         &self.steps[(self.taken - 1) % HISTORY]
     }
 
+    /// Begins anew: no step so far is taken into account any more.
+    pub(super) fn clear(&mut self) {
+        self.steps.iter_mut().for_each(|step| step.square = 0.0);
+    }
+
     /// Takes the parts along the others out of the last step; the share of it that leaves least of `left`.
     pub(super) fn conjugate(&mut self, left: &[f64]) -> f64 {
         let place = (self.taken - 1) % HISTORY;
@@ -53,17 +60,4 @@ impl History {
         step.square = dot(&step.image, &step.image);
         if step.square > 0.0 { dot(left, &step.image) / step.square } else { 1.0 }
     }
-}
-
-/// xᵀy, summed in lanes of their own, which vector instructions add.
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let (x_blocks, y_blocks) = (x.chunks_exact(8), y.chunks_exact(8));
-    let rest: f64 = x_blocks.remainder().iter().zip(y_blocks.remainder()).map(|(x, y)| x * y).sum();
-    let mut lanes = [0.0; 8];
-    for (x, y) in x_blocks.zip(y_blocks) {
-        for ((lane, x), y) in lanes.iter_mut().zip(x).zip(y) {
-            *lane += x * y;
-        }
-    }
-    lanes.iter().sum::<f64>() + rest
 }

@@ -199,7 +199,7 @@ impl Sweeps {
         let negligible = self.negligible(b);
         let mut left = b.to_vec();
         b.fill(0.0);
-        self.push(&mut left, b, negligible);
+        self.push(&mut left, b, negligible, PATIENCE);
         b.iter_mut().zip(&self.stay).for_each(|(visits, stay)| *visits *= stay);
     }
 
@@ -222,7 +222,7 @@ impl Sweeps {
                 left[target] += visits * weight;
             }
         }
-        self.push(&mut left, b, negligible);
+        self.push(&mut left, b, negligible, PATIENCE);
         for (visits, stay) in b.iter_mut().zip(&self.stay) {
             *visits = if *visits > negligible { *visits * stay } else { 0.0 };
         }
@@ -231,7 +231,8 @@ impl Sweeps {
     /// Adds to `b`, visits without those that stay, all that follow from `left`, of either sign: rounds of pushing, each with the
     /// share that leaves least in squares, after what the rounds before it already took is taken out (the generalised conjugate
     /// residual method, Eisenstat, Elman and Schultz 1983, whose preconditioner is a round).
-    fn push(&self, left: &mut [f64], b: &mut [f64], negligible: f64) {
+    /// After `patience` rounds in which little became less, rounds are plain until it does.
+    fn push(&self, left: &mut [f64], b: &mut [f64], negligible: f64, patience: usize) {
         let mut history = History::new(left.len());
         let mut before = vec![0.0; left.len()];
         let (mut least, mut since) = (f64::INFINITY, 0);
@@ -243,9 +244,10 @@ impl Sweeps {
             }
             let size: f64 = before.iter().map(|x| x.abs()).sum();
             (least, since) = if size < 0.9 * least { (size, 0) } else { (least, since + 1) };
-            if since > PATIENCE {
+            if since > patience {
                 // Plain rounds leave at most γ of what was left each, so this ends.
                 b.iter_mut().zip(&step.direction).for_each(|(visits, x)| *visits += x);
+                history.clear();
                 continue;
             }
             step.image.iter_mut().zip(&before).zip(&*left).for_each(|((image, before), after)| *image = before - after);
@@ -430,6 +432,15 @@ mod tests {
             sweeps.visits(&mut from_none);
             let apart: f64 = from_near.iter().zip(&from_none).map(|(x, y)| (x - y).abs()).sum();
             assert!(apart <= 1e-12 / (1.0 - gamma), "γ = {gamma}: {apart:e} apart");
+
+            // The same whenever rounds become plain, and conjugate again.
+            for patience in [0, 1, 3] {
+                let (mut left, mut pushed) = (starts.clone(), vec![0.0; 300]);
+                sweeps.push(&mut left, &mut pushed, sweeps.negligible(&starts), patience);
+                let visits = pushed.iter().zip(&sweeps.stay).map(|(visits, stay)| visits * stay);
+                let apart: f64 = visits.zip(&from_none).map(|(x, y)| (x - y).abs()).sum();
+                assert!(apart <= 1e-12 / (1.0 - gamma), "γ = {gamma}, patience {patience}: {apart:e} apart");
+            }
 
             let mut x = vec![0.0; 300];
             sweeps.relax(&sweeps.prepared(&begin, 1), &mut x, 1e-12, 100_000);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::linear::Sweeps;
+use crate::linear::{Sweeps, dot};
 use crate::model::Mdp;
 use crate::policy::Policy;
 use crate::solver::evaluated::{Evaluated, Help};
@@ -155,17 +155,4 @@ fn add_scaled(out: &mut [f64], c: f64, x: &[f64]) {
     for (out, x) in out.iter_mut().zip(x) {
         *out += c * x;
     }
-}
-
-/// xᵀy, summed in four lanes.
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let (x_blocks, y_blocks) = (x.chunks_exact(4), y.chunks_exact(4));
-    let rest: f64 = x_blocks.remainder().iter().zip(y_blocks.remainder()).map(|(x, y)| x * y).sum();
-    let mut lanes = [0.0; 4];
-    for (x, y) in x_blocks.zip(y_blocks) {
-        for ((lane, x), y) in lanes.iter_mut().zip(x).zip(y) {
-            *lane += x * y;
-        }
-    }
-    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + rest
 }

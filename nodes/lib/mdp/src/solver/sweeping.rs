@@ -89,8 +89,10 @@ impl Sweeping {
         q: &mut [f64],
     ) -> Arc<Evaluated> {
         let (mdp, gamma) = (tables.mdp, tables.mdp.gamma());
-        let enough = (1.0 - gamma) * tolerances.rounding.max(error);
-        if !self.recent.expect(w, values) && values.iter().any(|value| !value.is_finite()) {
+        let rounding = (1.0 - gamma) * tolerances.rounding;
+        let enough = rounding.max((1.0 - gamma) * error);
+        self.recent.expect(w, values);
+        if values.iter().any(|value| !value.is_finite()) {
             values.fill(0.0);
         }
         let (mut least, mut since) = (f64::INFINITY, 0);
@@ -104,7 +106,7 @@ impl Sweeping {
             } else {
                 since += 1;
             }
-            if residual <= enough || (since > PATIENCE && residual <= NEAR_ROUNDING * enough.max(f64::MIN_POSITIVE)) {
+            if residual <= enough || (since > PATIENCE && residual <= NEAR_ROUNDING * rounding.max(f64::MIN_POSITIVE)) {
                 break;
             }
             self.improve(tables, working, q);
