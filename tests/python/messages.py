@@ -269,7 +269,7 @@ class Posterior(IdlStruct, typename="apprentice_msgs::msg::dds_::Posterior_"):
     evidence_hash: str = ""
     n_demonstrations: uint64 = 0
     n_answers: uint64 = 0
-    stopped: bool = False
+    wish: uint8 = 0
     task: TableScene = field(default_factory=TableScene)
     scene: TableScene = field(default_factory=TableScene)
     world: WorldReference = field(default_factory=WorldReference)

@@ -367,6 +367,8 @@ uint8 ASKING=0
 uint8 TAUGHT=1                   # the bound is below epsilon
 uint8 STOPPED=2                  # the person said that nothing is acceptable
 uint8 GAVE_UP=3                  # max_questions asked and still not taught
+uint8 PAUSED=4                   # nothing is asked until the person says start
+uint8 FINISHED=5                 # the person had said enough, and the bound is not below epsilon
 
 std_msgs/Header header
 uint64 revision
@@ -585,6 +587,12 @@ float64[] action_probabilities   # TABULAR and stochastic: n_states x n_actions,
 FeatureTrajectory[] rollouts     # ROLLOUTS: their mean is judged
 "#),
     ("apprentice_msgs/msg/Posterior", r#"# Draws of the reward weights given the evidence.
+uint8 NO_WISH=0
+uint8 STOP=1                     # nothing is acceptable
+uint8 PAUSE=2
+uint8 START=3
+uint8 FINISH=4
+
 uint8 READY=0
 uint8 NOT_MIXED=1                # the chains disagree: see reason
 
@@ -592,8 +600,8 @@ std_msgs/Header header           # stamp of the newest accepted evidence
 uint64 revision                  # number of accepted events
 string evidence_hash             # SHA-256 over the evidence in force, hex
 uint64 n_demonstrations          # placements in force
-uint64 n_answers                 # questions answered or skipped so far, taken back or not
-bool stopped                     # the person said that nothing is acceptable, and has not taken it back
+uint64 n_answers                 # questions of this lesson answered or skipped so far, taken back or not
+uint8 wish                       # about the lesson itself, of what has not been taken back: stop before finish before the newest of the others
 TableScene task                  # the table that the lesson is about; without objects and extent when it is about none
 TableScene scene                 # of the newest placement in force, else the task
 WorldReference world             # the world that the lesson is about; empty when it is about none
@@ -642,10 +650,14 @@ string version
     ("apprentice_msgs/msg/PreferenceCycle", r#"# Trajectories that were said to be better than each other all around: answers that cannot all be right.
 string[] trajectories            # ids; each was called worse than the next one, and the last worse than the first
 "#),
-    ("apprentice_msgs/msg/QueryResponse", r#"# An answer to a question that is not a placement.
+    ("apprentice_msgs/msg/QueryResponse", r#"# An answer to a question that shows nothing, or a word about the lesson itself, which needs no question.
 uint8 SKIP=0                     # no data: ask something else
 uint8 CANT_TELL=1                # the person has no opinion here: ask something else
 uint8 STOP=2                     # nothing is acceptable: stop the lesson
+uint8 PAUSE=3                    # ask nothing until START comes, or this is taken back
+uint8 START=4                    # begin to ask, or go on
+uint8 FINISH=5                   # the person has said enough: the lesson ends with what is known
+uint8 NEW_LESSON=6               # what was said before counts no more, unless this is taken back
 
 std_msgs/Header header
 string id                        # unique within a session

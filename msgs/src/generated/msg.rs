@@ -299,6 +299,10 @@ impl LessonStatus {
     pub const STOPPED: u8 = 2;
     /// max_questions asked and still not taught
     pub const GAVE_UP: u8 = 3;
+    /// nothing is asked until the person says start
+    pub const PAUSED: u8 = 4;
+    /// the person had said enough, and the bound is not below epsilon
+    pub const FINISHED: u8 = 5;
 }
 
 impl crate::Message for LessonStatus {
@@ -786,10 +790,10 @@ pub struct Posterior {
     pub evidence_hash: std::string::String,
     /// placements in force (`uint64`)
     pub n_demonstrations: u64,
-    /// questions answered or skipped so far, taken back or not (`uint64`)
+    /// questions of this lesson answered or skipped so far, taken back or not (`uint64`)
     pub n_answers: u64,
-    /// the person said that nothing is acceptable, and has not taken it back (`bool`)
-    pub stopped: bool,
+    /// about the lesson itself, of what has not been taken back: stop before finish before the newest of the others (`uint8`)
+    pub wish: u8,
     /// the table that the lesson is about; without objects and extent when it is about none (`TableScene`)
     pub task: super::msg::TableScene,
     /// of the newest placement in force, else the task (`TableScene`)
@@ -843,6 +847,16 @@ pub struct Posterior {
 }
 
 impl Posterior {
+    /// The constant `NO_WISH`.
+    pub const NO_WISH: u8 = 0;
+    /// nothing is acceptable
+    pub const STOP: u8 = 1;
+    /// The constant `PAUSE`.
+    pub const PAUSE: u8 = 2;
+    /// The constant `START`.
+    pub const START: u8 = 3;
+    /// The constant `FINISH`.
+    pub const FINISH: u8 = 4;
     /// The constant `READY`.
     pub const READY: u8 = 0;
     /// the chains disagree: see reason
@@ -907,7 +921,7 @@ impl crate::Message for PreferenceCycle {
     const TYPE: &'static str = "apprentice_msgs/msg/PreferenceCycle";
 }
 
-/// An answer to a question that is not a placement.
+/// An answer to a question that shows nothing, or a word about the lesson itself, which needs no question.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct QueryResponse {
     /// (`std_msgs/Header`)
@@ -931,6 +945,14 @@ impl QueryResponse {
     pub const CANT_TELL: u8 = 1;
     /// nothing is acceptable: stop the lesson
     pub const STOP: u8 = 2;
+    /// ask nothing until START comes, or this is taken back
+    pub const PAUSE: u8 = 3;
+    /// begin to ask, or go on
+    pub const START: u8 = 4;
+    /// the person has said enough: the lesson ends with what is known
+    pub const FINISH: u8 = 5;
+    /// what was said before counts no more, unless this is taken back
+    pub const NEW_LESSON: u8 = 6;
 }
 
 impl crate::Message for QueryResponse {

@@ -6,6 +6,7 @@ mod asking;
 mod node;
 mod run;
 mod settings;
+mod wishes;
 mod words;
 mod world_lesson;
 mod world_question;

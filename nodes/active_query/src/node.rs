@@ -1,7 +1,7 @@
 //! The node as a state machine: posteriors and bounds in, candidates, questions and the lesson's state out.
 
 use crate::worlds::Worlds;
-use crate::{Settings, Strategy, asking, words};
+use crate::{Settings, Strategy, asking, wishes, words};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
     Candidates, EvidenceLog, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, PolicyBounds, Posterior,
@@ -174,21 +174,26 @@ impl ActiveQuery {
         let (mut query, mut warnings) = (None, Vec::new());
         // Without a demonstration there is nothing the person has agreed to, whatever the prior says.
         let choice = if round.posterior.n_demonstrations == 0 { ask_first(&judged) } else { next(&judged, epsilon_m) };
-        match choice {
-            _ if round.posterior.stopped => {
-                lesson.state = LessonStatus::STOPPED;
-                lesson.reason = "the person said that nothing is acceptable".into();
-            }
-            Choice::Taught { bound_m } => {
+        let wish = wishes::before_the_bound(&self.settings, &round.posterior);
+        match (wish, choice) {
+            (Some(told), _) => (lesson.state, lesson.reason) = told,
+            (None, Choice::Taught { bound_m }) => {
                 lesson.state = LessonStatus::TAUGHT;
                 lesson.reason =
                     format!("the bound, {:.1} cm, is below ε = {:.1} cm", 100.0 * bound_m, 100.0 * epsilon_m);
             }
-            Choice::Nothing => {
+            (None, _) if round.posterior.wish == Posterior::FINISH => {
+                let known = bounds.outcome == PlacementBound::BOUND && bounds.bound_m.is_finite();
+                let bound = format!("the bound, {:.1} cm, is not below", 100.0 * bounds.bound_m);
+                let goal = format!("{:.1} cm", 100.0 * epsilon_m);
+                lesson.state = LessonStatus::FINISHED;
+                lesson.reason = wishes::finished(if known { &bound } else { &bounds.reason }, known, &goal);
+            }
+            (None, Choice::Nothing) => {
                 lesson.state = LessonStatus::GAVE_UP;
                 lesson.reason = "there is no free spot for the target on any table I can imagine".into();
             }
-            Choice::Ask(_) if i64::from(lesson.questions_asked) >= self.settings.max_questions => {
+            (None, Choice::Ask(_)) if i64::from(lesson.questions_asked) >= self.settings.max_questions => {
                 lesson.state = LessonStatus::GAVE_UP;
                 lesson.reason = format!(
                     "{} questions were answered and the bound is not below ε = {:.1} cm; raise max_questions or epsilon_m",
@@ -196,7 +201,7 @@ impl ActiveQuery {
                     100.0 * epsilon_m
                 );
             }
-            Choice::Ask(largest) => {
+            (None, Choice::Ask(largest)) => {
                 let (index, warning) = self.table_to_ask(round, &judged, largest);
                 warnings.extend(warning);
                 let asked = self.ask(round, bounds, index);

@@ -52,6 +52,8 @@ pub struct Settings {
     pub hold_out_share: f64,
     /// Questions after which the lesson is given up.
     pub max_questions: i64,
+    /// Whether nothing is asked before the person says start.
+    pub wait_for_start: bool,
     /// How often the pending question and the lesson's state are sent again, seconds.
     pub republish_period_s: f64,
 }
@@ -68,6 +70,7 @@ impl Default for Settings {
             trajectory_steps: 8,
             hold_out_share: 0.1,
             max_questions: 60,
+            wait_for_start: false,
             republish_period_s: 2.0,
         }
     }
@@ -122,6 +125,11 @@ impl NodeSettings for Settings {
             name: "max_questions",
             about: "questions, or pieces of evidence about a world, after which the lesson is given up",
             range: Range::Integer { min: 1, max: 10_000 },
+        },
+        ParameterSpec {
+            name: "wait_for_start",
+            about: "whether nothing is asked before the person says start",
+            range: Range::Any,
         },
         ParameterSpec {
             name: "republish_period_s",

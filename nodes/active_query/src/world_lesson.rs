@@ -1,6 +1,6 @@
 //! Where a lesson about a world stands: over when what the robot's policy may lose is small.
 
-use crate::Settings;
+use crate::{Settings, wishes};
 use apprentice_msgs::msg::{LessonStatus, PolicyBounds, Posterior, RiskBound};
 use exchange::{ROBUST_POLICY, is_about_a_table, robust_set_id};
 
@@ -24,8 +24,8 @@ pub fn world_lesson(settings: &Settings, posterior: &Posterior, bounds: &PolicyB
     let goal = settings.epsilon_loss;
     let known = loss.outcome == RiskBound::BOUND && loss.bound.is_finite();
     let share = |x: f64| format!("{:.1} %", 100.0 * x);
-    let (state, reason) = if posterior.stopped {
-        (LessonStatus::STOPPED, "the person said that nothing is acceptable".to_owned())
+    let (state, reason) = if let Some(told) = wishes::before_the_bound(settings, posterior) {
+        told
     } else if known && pieces > 0 && loss.bound < goal {
         let reason = format!(
             "the robot's policy loses at most {} of what choosing at random loses, which is below ε = {}",
@@ -33,6 +33,9 @@ pub fn world_lesson(settings: &Settings, posterior: &Posterior, bounds: &PolicyB
             share(goal)
         );
         (LessonStatus::TAUGHT, reason)
+    } else if posterior.wish == Posterior::FINISH {
+        let bound = if known { format!("the bound, {}, is not below", share(loss.bound)) } else { loss.reason.clone() };
+        (LessonStatus::FINISHED, wishes::finished(&bound, known, &share(goal)))
     } else if i64::try_from(pieces).unwrap_or(i64::MAX) >= settings.max_questions {
         let reason = format!(
             "{pieces} pieces of evidence were given and the bound is not below ε = {}; raise max_questions or epsilon_loss",
@@ -110,7 +113,7 @@ mod tests {
         assert_eq!(state(0, &bounds(RiskBound::BOUND, 0.05)), LessonStatus::ASKING);
         assert_eq!(state(2, &bounds(RiskBound::NOT_MIXED, f64::NAN)), LessonStatus::ASKING);
         assert_eq!(state(60, &bounds(RiskBound::BOUND, 0.2)), LessonStatus::GAVE_UP);
-        let stopped = Posterior { stopped: true, ..posterior(2) };
+        let stopped = Posterior { wish: Posterior::STOP, ..posterior(2) };
         let lesson = world_lesson(&Settings::default(), &stopped, &bounds(RiskBound::BOUND, 0.05)).expect("a lesson");
         assert_eq!(lesson.state, LessonStatus::STOPPED);
         assert!(lesson.bound_m.is_nan() && lesson.epsilon_m.is_nan() && lesson.epsilon_loss == 0.1);

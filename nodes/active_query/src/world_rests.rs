@@ -2,7 +2,7 @@
 
 use crate::settings::QuestionKind;
 use apprentice_msgs::msg::EvidenceLog;
-use exchange::record_id;
+use exchange::in_force;
 use std::collections::BTreeSet;
 
 /// A question that was answered comes again only after this many others.
@@ -26,11 +26,9 @@ impl Rests {
     /// From everything that a revision takes in; none until the log holds that.
     pub fn new(log: &EvidenceLog, revision: u64) -> Option<Self> {
         let records = log.records.get(..usize::try_from(revision).ok()?)?;
-        let retracted: BTreeSet<&str> =
-            records.iter().flat_map(|record| &record.retraction).map(|undo| undo.evidence_id.as_str()).collect();
         let mut rests = Self::default();
         let mut answered = Vec::new();
-        for record in records.iter().filter(|record| !retracted.contains(record_id(record))) {
+        for record in in_force(records) {
             let skipped = record.response.first().and_then(|m| about(&m.query_id));
             let answer = None
                 .or(record.actions.first().map(|m| &m.query_id))

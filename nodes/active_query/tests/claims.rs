@@ -123,7 +123,17 @@ fn the_lesson_ends_below_epsilon_at_a_stop_and_after_too_many_questions() {
     assert_eq!(end(posterior(1, 1), 0.099, settings()), (false, LessonStatus::TAUGHT));
     assert_eq!(end(posterior(1, 1), 0.1, settings()), (true, LessonStatus::ASKING));
     assert_eq!(end(posterior(1, 1), f64::NAN, settings()), (true, LessonStatus::ASKING));
-    assert_eq!(end(Posterior { stopped: true, ..posterior(1, 1) }, 0.2, settings()), (false, LessonStatus::STOPPED));
+    let wish = |wish| Posterior { wish, ..posterior(1, 1) };
+    assert_eq!(end(wish(Posterior::STOP), 0.2, settings()), (false, LessonStatus::STOPPED));
+    // A pause holds whatever the bound is; who has said enough may have said enough to teach it.
+    assert_eq!(end(wish(Posterior::PAUSE), 0.05, settings()), (false, LessonStatus::PAUSED));
+    assert_eq!(end(wish(Posterior::START), 0.2, settings()), (true, LessonStatus::ASKING));
+    assert_eq!(end(wish(Posterior::FINISH), 0.2, settings()), (false, LessonStatus::FINISHED));
+    assert_eq!(end(wish(Posterior::FINISH), f64::NAN, settings()), (false, LessonStatus::FINISHED));
+    assert_eq!(end(wish(Posterior::FINISH), 0.05, settings()), (false, LessonStatus::TAUGHT));
+    let waiting = Settings { wait_for_start: true, ..settings() };
+    assert_eq!(end(posterior(0, 0), 0.2, waiting.clone()), (false, LessonStatus::PAUSED));
+    assert_eq!(end(wish(Posterior::START), 0.2, waiting), (true, LessonStatus::ASKING));
     let few = Settings { max_questions: 5, ..settings() };
     assert_eq!(end(posterior(5, 5), 0.2, few.clone()), (false, LessonStatus::GAVE_UP));
     assert_eq!(end(posterior(4, 4), 0.2, few), (true, LessonStatus::ASKING));

@@ -2,7 +2,7 @@
 
 use crate::{BringupError, Demonstrator, NodeInfo, Session, Settings, Subject, read_parameters, stop_stage};
 use bus::Arguments;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// In the order of starting: the recorder first, so that the bag holds everything; who answers last.
 const ORDER: [&str; 10] = [
@@ -89,6 +89,12 @@ fn launch_node(
     Ok(LaunchNode { name: node.name, args, stage: stop_stage(node.name), essential: !answers_elsewhere })
 }
 
+/// The folder that the session's own stands in, where others may stand too.
+fn beside(session: &Session) -> String {
+    let parent = session.dir.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    serde_json::Value::from(parent.to_string_lossy().into_owned()).to_string()
+}
+
 /// The section of session.yaml for one node: what depends on the session.
 fn own_parameters(node: &NodeInfo, settings: &Settings, session: &Session) -> String {
     let path = |name: &str| serde_json::Value::from(session.path(name).to_string_lossy().into_owned()).to_string();
@@ -100,6 +106,7 @@ fn own_parameters(node: &NodeInfo, settings: &Settings, session: &Session) -> St
         ("port", settings.port.to_string()),
         ("url_file", path("page-url")),
         ("token_file", path("page-token")),
+        ("recordings", beside(session)),
     ] {
         if node.has(parameter) {
             lines += &format!("    {parameter}: {value}\n");

@@ -63,7 +63,7 @@ impl Ledger {
 
     /// Whether the lesson has ended, in whatever way.
     pub fn is_over(&self) -> bool {
-        self.lesson.as_ref().is_some_and(|lesson| lesson.state != LessonStatus::ASKING)
+        self.lesson.as_ref().is_some_and(|lesson| ![LessonStatus::ASKING, LessonStatus::PAUSED].contains(&lesson.state))
     }
 
     /// Whether the robot has planned with all that the lesson's end knows.

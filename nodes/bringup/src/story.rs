@@ -177,6 +177,10 @@ fn said(record: &EvidenceRecord) -> String {
             QueryResponse::SKIP => "skip this one",
             QueryResponse::CANT_TELL => "I can't tell",
             QueryResponse::STOP => "stop, nothing is acceptable",
+            QueryResponse::PAUSE => "pause",
+            QueryResponse::START => "go on",
+            QueryResponse::FINISH => "that is enough",
+            QueryResponse::NEW_LESSON => "a new lesson; what was said before counts no more",
             _ => "an unknown response",
         };
         let reason = if response.reason.is_empty() { String::new() } else { format!(" ({})", short(&response.reason)) };
@@ -245,6 +249,8 @@ fn end_sentence(lesson: &LessonStatus) -> String {
         }
         LessonStatus::STOPPED => format!("    stopped {after}: {reason}"),
         LessonStatus::GAVE_UP => format!("    gave up {after}: {reason}"),
+        LessonStatus::PAUSED => format!("    paused {after}: {reason}"),
+        LessonStatus::FINISHED => format!("    finished {after}: {reason}"),
         _ => format!("    ended {after}: {reason}"),
     }
 }

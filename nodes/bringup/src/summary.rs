@@ -12,7 +12,7 @@ use std::time::Duration;
 pub struct Summary {
     /// Whether the bound is below ε.
     pub taught: bool,
-    /// "asking", "taught", "stopped" or "gave_up".
+    /// "asking", "taught", "stopped", "gave_up", "paused" or "finished".
     pub state: &'static str,
     /// The reason for the state, in words.
     pub why: String,
@@ -144,6 +144,8 @@ impl Summary {
                 LessonStatus::TAUGHT => "taught",
                 LessonStatus::STOPPED => "stopped",
                 LessonStatus::GAVE_UP => "gave_up",
+                LessonStatus::PAUSED => "paused",
+                LessonStatus::FINISHED => "finished",
                 _ => "asking",
             },
             why: why.filter(|_| state == LessonStatus::ASKING).unwrap_or(own_reason).to_owned(),

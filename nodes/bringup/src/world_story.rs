@@ -54,13 +54,16 @@ impl WorldStory {
             return Vec::new();
         }
         let mut lines = vec![(Kind::Bound, bound(lesson))];
-        self.over = (lesson.state != LessonStatus::ASKING).then_some(lesson.revision);
+        let goes_on = [LessonStatus::ASKING, LessonStatus::PAUSED].contains(&lesson.state);
+        self.over = (!goes_on).then_some(lesson.revision);
         let pieces = if lesson.demonstrations == 1 { "piece" } else { "pieces" };
         let after = format!("after {} {pieces} of evidence", lesson.demonstrations);
         let word = match lesson.state {
             LessonStatus::TAUGHT => "taught",
             LessonStatus::STOPPED => "stopped",
             LessonStatus::GAVE_UP => "gave up",
+            LessonStatus::PAUSED => "paused",
+            LessonStatus::FINISHED => "finished",
             _ => return lines,
         };
         lines.push((Kind::Lesson, format!("    {word} {after}: {}", short(&lesson.reason))));

@@ -3,12 +3,12 @@
 import { element, footprint } from "./drawing.js";
 
 const CONFIDENCE = { sure: "sure", fairly: "fairly sure", guess: "a guess" };
-const KINDS = { skip: "Skipped", cant_tell: "Can't tell", stop: "Stopped the lesson" };
+const KINDS = { skip: "Skipped", cant_tell: "Can't tell", stop: "Stopped the lesson", pause: "Paused", start: "Started", finish: "Finished the lesson", new_lesson: "Began a new lesson" };
 const COUNTED = { actions: (n) => `Showed a walk of ${n} steps`, preference: (n) => `Compared ${n} walks`, critique: (n) => `Marked ${n} parts of a walk`, history: (n) => `${n} attempts of a learner` };
-const MARKS = { skip: "↷", cant_tell: "?", stop: "■", placement: "•", actions: "↝", preference: "≷", critique: "✎", history: "↗" };
+const MARKS = { skip: "↷", cant_tell: "?", stop: "■", pause: "‖", start: "▸", finish: "✓", new_lesson: "✦", placement: "•", actions: "↝", preference: "≷", critique: "✎", history: "↗" };
 
 /** Kinds of answer that can be given once more. */
-export const GIVEN = ["placement", "actions", "preference", "critique", "stop"];
+export const GIVEN = ["placement", "actions", "preference", "critique", "history", "stop"];
 
 /** Whether an answer counts at the moment and may be taken back. */
 export function canUndo(answer) {
@@ -18,6 +18,8 @@ export function canUndo(answer) {
 /** What became of an answer, in words. */
 export function fate(answer) {
   if (answer.state === "pending") return "on its way…";
+  if (answer.state === "past") return `revision ${answer.revision}, of an earlier lesson`;
+  if (answer.state === "held") return "waits for the new lesson…";
   if (answer.state === "refused") return `refused: ${answer.reason}`;
   if (answer.state === "undone") return answer.undo && answer.undo.revision !== null ? `taken back in revision ${answer.undo.revision}` : "taken back";
   if (answer.undo && answer.undo.state === "refused") return `revision ${answer.revision}; could not be taken back: ${answer.undo.reason}`;

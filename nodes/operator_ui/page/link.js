@@ -88,6 +88,11 @@ export class Link {
     if (this.socket && this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
   }
 
+  /** Sends a command once: nothing is lost with it. */
+  ask(command) {
+    if (this.socket && this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
+  }
+
   settle(answers) {
     for (const answer of answers) {
       if (answer.state !== "pending") this.drop(answer.id);

@@ -5,17 +5,19 @@ import { cm, isUnreachable, obstruction } from "./geometry.js";
 import { Link, newId } from "./link.js";
 import { colour, range } from "./maps.js";
 import { drawReceipt } from "./receipt.js";
+import { Session, lessonStart } from "./session.js";
 import { TableView } from "./table.js";
 import { drawTrend } from "./trend.js";
 import { WorldLesson } from "./world.js";
 
 const $ = (id) => document.getElementById(id);
-const state = { question: null, world_question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [] };
+const state = { question: null, world_question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [], recordings: [] };
 const own = { question: undefined, at: null, revealed: false, heat: false, sent: null, sentFor: null, correcting: false, look: null, problem: "" };
 
 const table = new TableView($("table"), { moved, submitted: submit, hovered });
 const link = new Link({ status, sections, refused, notice });
 const world = new WorldLesson(link, { undo, redo, changed: () => render() });
+const session = new Session({ send: (command) => send(command), ask: (command) => link.ask(command), undo });
 const again = new Set();
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
@@ -34,7 +36,7 @@ function plan() {
 }
 
 /** The robot's opinion is shown once the person has formed one, or when nothing is asked. */
-const reveal = () => (showsQuestion() || own.correcting ? own.revealed : ["taught", "gave_up"].includes(lessonState()));
+const reveal = () => (showsQuestion() || own.correcting ? own.revealed : ["taught", "gave_up", "finished"].includes(lessonState()));
 
 // ---- from the node ------------------------------------------------------------------------------------------------
 
@@ -175,6 +177,7 @@ function render() {
   $("lesson-table").hidden = aboutWorld;
   $("lesson-world").hidden = !aboutWorld;
   renderLesson();
+  session.render(state);
   if (aboutWorld) world.render(state);
   for (const [id, is] of [["ask-undo", lastActive()], ["ask-redo", lastUndone()], ["ask-stop", !["waiting", "stopped"].includes(lessonState())]]) $(id).disabled = !is;
   renderTable();
@@ -189,7 +192,7 @@ function render() {
 }
 
 const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
-const STATES = { waiting: "Waiting for the lesson", asking: "Learning", taught: "Taught", stopped: "Stopped", gave_up: "Gave up" };
+const STATES = { waiting: "Waiting for the lesson", asking: "Learning", taught: "Taught", stopped: "Stopped", gave_up: "Gave up", paused: "Paused", finished: "Finished" };
 
 function renderLesson() {
   const { question, lesson, bounds, posterior } = state, name = scene()?.target.label ?? "it", word = lessonState();
@@ -200,7 +203,7 @@ function renderLesson() {
   text("question-number", own.correcting ? "Your correction" : asking ? `Question ${lesson?.questions_asked || ""}` : "The lesson");
   text("question-id", asking ? question.id : "", asking ? question.id : "");
   const [, asked, why] = asking ? question.reason.match(/^([^?]{1,200}\?)\s+(.+)$/s) ?? [] : [];
-  text("question-title", own.correcting || asking ? asked ?? `Where does the ${name} belong?` : { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking." }[word] ?? "One moment…");
+  text("question-title", own.correcting || asking ? asked ?? `Where does the ${name} belong?` : { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking.", paused: "The lesson is paused.", finished: "The lesson is finished." }[word] ?? "One moment…");
   text("question-reason", own.correcting ? `Show where the ${name} belongs on the table as it is.` : asking ? why ?? question.reason : sentence(lesson?.reason) || "The page is waiting for the robot's first question.");
   const epsilon = lesson?.epsilon_m ?? question?.epsilon_m ?? null, bound = bounds?.bound_m ?? null;
   text("bound", bound === null ? (bounds ? "no bound yet" : "–") : cm(bound), bound);
@@ -307,7 +310,7 @@ function renderGuess(map, shown, name) {
 }
 
 function renderProgress() {
-  drawTrend($("trend"), state.trend, $("log-scale").checked);
+  drawTrend($("trend"), state.trend.filter((point) => point.revision >= lessonStart(state.answers)), $("log-scale").checked);
   drawReceipt($("receipt-list"), state.bounds);
   $("receipt").hidden = !state.bounds;
 }

@@ -50,3 +50,14 @@ export const WORDS = {
     return undefined;
   },
 };
+
+/** The lesson as a whole. */
+export const SESSION = {
+  go: (word, isFresh) => (word === "paused" ? (isFresh ? "Start the lesson" : "Go on") : word === "finished" ? "Go on teaching" : word === "stopped" ? "Take the stop back" : "Pause"),
+  halted: (word, isFresh) => ({
+    paused: isFresh ? "The lesson has not been started yet." : "The lesson is paused. The robot asks nothing; you may still correct it.",
+    finished: "You finished the lesson. The robot keeps what it learned.",
+    stopped: "You stopped the lesson because nothing was acceptable.",
+  })[word],
+  recording: ({ began_s, duration_s, bytes }) => [began_s === null ? null : new Date(1000 * began_s).toLocaleString(), `${Math.round(duration_s / 60)} min`, `${(bytes / 1e6).toFixed(1)} MB`].filter(Boolean).join(" · "),
+};

@@ -8,13 +8,14 @@ import { newId } from "./link.js";
 import { COMMON, drawReceipt } from "./receipt.js";
 import { asARule, number, percent, worstCase } from "./risk.js";
 import { ROAD_KEY, drawRoad, roadWords } from "./road.js";
+import { lessonStart } from "./session.js";
 import { drawTrend } from "./trend.js";
 import { drawWeights } from "./weights.js";
 import { WORDS, placeWords } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
-const TITLES = { asking: "The robot is learning what you want.", taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up learning." };
+const TITLES = { asking: "The robot is learning what you want.", taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up learning.", paused: "The lesson is paused.", finished: "The lesson is finished." };
 
 function text(id, words, value) {
   const node = $(id);
@@ -54,6 +55,12 @@ export class WorldLesson {
       if (this.wish === this.sent.lambda) this.wish = null;
       this.sent = null;
     }
+  }
+
+  /** The bounds of this lesson. */
+  trend() {
+    const start = lessonStart(this.state.answers);
+    return this.state.loss_trend.filter((point) => point.revision >= start);
   }
 
   apply() {
@@ -131,7 +138,7 @@ export class WorldLesson {
 
   /** How many more answers it may take: the bound's fall so far, as a straight line of its logarithm, drawn on to the goal. */
   left() {
-    const { loss_trend: trend, lesson } = this.state, known = trend.filter((p) => p.bound > 0), given = lesson.demonstrations;
+    const { lesson } = this.state, known = this.trend().filter((p) => p.bound > 0), given = lesson.demonstrations;
     if (known.length < 4 || !lesson.epsilon_loss) return WORDS.range(given || null, null);
     const recent = known.slice(-16), x = recent.map((p) => p.revision), y = recent.map((p) => Math.log(p.bound));
     const mean = (v) => v.reduce((a, b) => a + b, 0) / v.length, mx = mean(x), my = mean(y);
@@ -209,7 +216,7 @@ export class WorldLesson {
   }
 
   renderProgress() {
-    const { loss_trend: trend } = this.state;
+    const trend = this.trend();
     drawTrend($("loss-trend"), trend.map((p) => ({ revision: p.revision, bound_m: p.bound, epsilon_m: p.goal, reason: p.reason })), false, "%");
   }
 

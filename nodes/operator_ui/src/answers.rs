@@ -3,7 +3,7 @@
 //! What a page said is published again each second until its receipt, or the evidence log, names it. The evidence log
 //! is the truth: it overrides anything a receipt said, and it may begin anew with another session.
 
-use crate::evidence::{Evidence, history_view};
+use crate::evidence::Evidence;
 use crate::protocol::{AnswerView, Fate, Kind, MAX_ANSWERS, UndoView};
 use apprentice_msgs::msg::{EvidenceLog, EvidenceReceipt, EvidenceRecord, Retraction};
 use bus::Time;
@@ -12,7 +12,10 @@ use exchange::record_id;
 /// What is not acknowledged is published again after this long, nanoseconds.
 const REPUBLISH_NS: i128 = 990_000_000;
 /// More than this many unacknowledged messages are not kept.
-const MAX_WAITING: usize = 256;
+const MAX_WAITING: usize = 1024;
+
+/// Why an answer cannot be taken back.
+const EARLIER: &str = "the answer belongs to an earlier lesson";
 
 /// An answer with what is needed to give it again.
 #[derive(Debug, Clone)]
@@ -68,11 +71,30 @@ impl Answers {
         Ok(())
     }
 
+    /// Begins a new lesson with what was said in another one, which goes out once the word that begins it is accepted.
+    pub fn take_up(&mut self, begin: Evidence, pieces: Vec<Evidence>) -> Result<(), String> {
+        let room = MAX_WAITING.saturating_sub(self.waiting.len() + 1);
+        if pieces.len() > room {
+            return Err(format!("{} answers are too many to take up at once; {room} are taken now", pieces.len()));
+        }
+        let held_for = begin.id().to_owned();
+        self.add(begin)?;
+        for evidence in pieces {
+            let Some(view) = evidence.view() else { continue };
+            self.entries.push(Entry { view, given: Some(evidence.clone()), after: self.revision() });
+            self.waiting.push(Waiting { evidence, held_for: Some(held_for.clone()), sent: None });
+        }
+        Ok(())
+    }
+
     fn retract(&mut self, message: Box<Retraction>) -> Result<(), String> {
+        let begins = self.begins();
         let Some(entry) = self.entries.iter_mut().find(|entry| entry.view.id == message.evidence_id) else {
             return Err("the answer that is to be taken back is not known".into());
         };
         match entry.view.state {
+            Fate::Accepted if entry.view.revision < begins => return Err(EARLIER.into()),
+            Fate::Past => return Err(EARLIER.into()),
             Fate::Accepted | Fate::Pending | Fate::Held => {}
             Fate::Refused => return Err("the answer was refused, so there is nothing to take back".into()),
             Fate::Undone => return Err("the answer has been taken back before".into()),
@@ -172,7 +194,16 @@ impl Answers {
             (undo.state, undo.reason) = (Fate::Refused, "the answer itself was refused".into());
         }
         let id = view.id.clone();
-        self.waiting.retain(|waiting| waiting.held_for.as_ref() != Some(&id));
+        // What waited for it does not come either.
+        let held: Vec<String> = self
+            .waiting
+            .extract_if(.., |waiting| waiting.held_for.as_ref() == Some(&id))
+            .map(|waiting| waiting.evidence.id().to_owned())
+            .collect();
+        for entry in self.entries.iter_mut().filter(|entry| held.contains(&entry.view.id)) {
+            entry.view.state = Fate::Refused;
+            "the new lesson was refused".clone_into(&mut entry.view.reason);
+        }
     }
 
     /// Takes the evidence log: everything accepted so far. Returns whether anything changed.
@@ -197,8 +228,6 @@ impl Answers {
         if let Some(evidence) = Evidence::of_record(record) {
             let view = evidence.view();
             self.accepted(view, Some(evidence), record.sequence);
-        } else if let Some(message) = record.history.first() {
-            self.accepted(history_view(message), None, record.sequence);
         } else if let Some(message) = record.retraction.first() {
             let entry = self.entries.iter_mut().find(|entry| entry.view.id == message.evidence_id);
             if let Some(entry) = entry {
@@ -231,7 +260,21 @@ impl Answers {
         let mut sorted: Vec<&Entry> = self.entries.iter().collect();
         sorted.sort_by_key(|entry| (entry.view.revision.unwrap_or(entry.after), entry.view.revision.is_none()));
         let skipped = sorted.len().saturating_sub(MAX_ANSWERS);
-        sorted[skipped..].iter().map(|entry| entry.view.clone()).collect()
+        let begins = self.begins();
+        let shown = |entry: &&Entry| {
+            let mut view = entry.view.clone();
+            if view.state == Fate::Accepted && view.revision < begins {
+                view.state = Fate::Past;
+            }
+            view
+        };
+        sorted[skipped..].iter().map(shown).collect()
+    }
+
+    /// The revision with which the lesson began, if a word of the person began it.
+    fn begins(&self) -> Option<u64> {
+        let begun = |entry: &&Entry| entry.view.kind == Kind::NewLesson && entry.view.state == Fate::Accepted;
+        self.entries.iter().filter(begun).filter_map(|entry| entry.view.revision).max()
     }
 }
 

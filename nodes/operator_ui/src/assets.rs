@@ -17,7 +17,7 @@ const JS: &str = "text/javascript; charset=utf-8";
 const SVG: &str = "image/svg+xml";
 
 /// Every file.
-pub(crate) const ASSETS: [Asset; 23] = [
+pub(crate) const ASSETS: [Asset; 25] = [
     Asset { path: "/", media_type: HTML, body: include_str!("../page/index.html") },
     Asset { path: "/style.css", media_type: CSS, body: include_str!("../page/style.css") },
     Asset { path: "/icon.svg", media_type: SVG, body: include_str!("../page/icon.svg") },
@@ -36,6 +36,8 @@ pub(crate) const ASSETS: [Asset; 23] = [
     Asset { path: "/road.js", media_type: JS, body: include_str!("../page/road.js") },
     Asset { path: "/ask.css", media_type: CSS, body: include_str!("../page/ask.css") },
     Asset { path: "/ask.js", media_type: JS, body: include_str!("../page/ask.js") },
+    Asset { path: "/session.css", media_type: CSS, body: include_str!("../page/session.css") },
+    Asset { path: "/session.js", media_type: JS, body: include_str!("../page/session.js") },
     Asset { path: "/ways.js", media_type: JS, body: include_str!("../page/ways.js") },
     Asset { path: "/words.js", media_type: JS, body: include_str!("../page/words.js") },
     Asset { path: "/frontier.js", media_type: JS, body: include_str!("../page/frontier.js") },

@@ -15,6 +15,7 @@ pub(crate) enum Evidence {
     Actions(Box<ActionDemonstration>),
     Critique(Box<SegmentCritique>),
     Comparison(Box<TrajectoryPreference>),
+    History(Box<LearnerHistory>),
     Retraction(Box<Retraction>),
     Response(Box<QueryResponse>),
 }
@@ -26,6 +27,7 @@ impl Evidence {
             Self::Actions(message) => &message.id,
             Self::Critique(message) => &message.id,
             Self::Comparison(message) => &message.id,
+            Self::History(message) => &message.id,
             Self::Retraction(message) => &message.id,
             Self::Response(message) => &message.id,
         }
@@ -37,7 +39,21 @@ impl Evidence {
             .or_else(|| record.actions.first().map(|m| Self::Actions(Box::new(m.clone()))))
             .or_else(|| record.critique.first().map(|m| Self::Critique(Box::new(m.clone()))))
             .or_else(|| record.preference.first().map(|m| Self::Comparison(Box::new(m.clone()))))
+            .or_else(|| record.history.first().map(|m| Self::History(Box::new(m.clone()))))
             .or_else(|| record.response.first().map(|m| Self::Response(Box::new(m.clone()))))
+    }
+
+    /// Who said it.
+    pub fn source(&self) -> &str {
+        match self {
+            Self::Demonstration(message) => &message.source,
+            Self::Actions(message) => &message.source,
+            Self::Critique(message) => &message.source,
+            Self::Comparison(message) => &message.source,
+            Self::History(message) => &message.source,
+            Self::Retraction(message) => &message.source,
+            Self::Response(message) => &message.source,
+        }
     }
 
     /// The same given once more under another id, in answer to `query_id`.
@@ -48,6 +64,10 @@ impl Evidence {
             Self::Critique(m) => (&mut m.header.stamp, &mut m.id, &mut m.query_id, &mut m.source),
             Self::Comparison(m) => (&mut m.header.stamp, &mut m.id, &mut m.query_id, &mut m.source),
             Self::Response(m) => (&mut m.header.stamp, &mut m.id, &mut m.query_id, &mut m.source),
+            Self::History(m) => {
+                (m.header.stamp, m.id, m.source) = (header.stamp, new_id, new_source);
+                return self;
+            }
             Self::Retraction(_) => return self,
         };
         (*stamp, *id, *query_id, *source) = (header.stamp, new_id, new_query_id, new_source);
@@ -119,17 +139,22 @@ impl Evidence {
                 let kind = match m.kind {
                     QueryResponse::SKIP => Kind::Skip,
                     QueryResponse::CANT_TELL => Kind::CantTell,
+                    QueryResponse::PAUSE => Kind::Pause,
+                    QueryResponse::START => Kind::Start,
+                    QueryResponse::FINISH => Kind::Finish,
+                    QueryResponse::NEW_LESSON => Kind::NewLesson,
                     _ => Kind::Stop,
                 };
                 blank(kind, &m.id, &m.query_id, &m.source)
             }
+            Self::History(m) => return history_view(m),
             Self::Retraction(_) => return None,
         })
     }
 }
 
-/// A learner's attempts in the list; pages do not send any.
-pub(crate) fn history_view(message: &LearnerHistory) -> Option<AnswerView> {
+/// A learner's attempts in the list.
+fn history_view(message: &LearnerHistory) -> Option<AnswerView> {
     let shown = TrajectoryPreference {
         id: message.id.clone(),
         source: message.source.clone(),

@@ -3,20 +3,21 @@
 use crate::answers::Answers;
 use crate::evidence::Evidence;
 use crate::hub::PageId;
+use crate::loading::{new_lesson, said_once_more};
 use crate::markers::markers;
 use crate::presence::Presence;
 use crate::protocol::{
-    BoundsView, FromPage, LessonView, NodeView, PROTOCOL, PlanView, PosteriorView, SceneView, Sections, ToPage,
-    TrendPoint,
+    BoundsView, FromPage, LessonView, NodeView, PROTOCOL, PlanView, PosteriorView, RecordingView, SceneView, Sections,
+    ToPage, TrendPoint,
 };
-use crate::question::{Context, id_of};
+use crate::question::{Context, id_of, is_uuid};
 use crate::settings::Settings;
 use crate::tabular::{News, Tabular};
 use crate::view::{
     bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point,
 };
 use apprentice_msgs::msg::{
-    ActionDemonstration, EvidenceLog, EvidenceReceipt, Heartbeat, LessonStatus, PerformanceBounds,
+    ActionDemonstration, EvidenceLog, EvidenceReceipt, Heartbeat, LearnerHistory, LessonStatus, PerformanceBounds,
     PlacementDemonstration, PlacementPlan, PlacementQuery, PolicyBounds, PolicyFrontier, Posterior, QueryResponse,
     Retraction, RiskPreference, RobustPolicy, SegmentCritique, TableScene, TabularWorld, TrajectoryPreference,
     WorldQuery,
@@ -62,12 +63,27 @@ pub enum Event {
     PolicyBounds(Box<PolicyBounds>),
     /// A node is alive.
     Heartbeat(Box<Heartbeat>),
+    /// The recordings that there are.
+    Recordings(Vec<RecordingView>),
+    /// What was said in a recording that a page wants to take up.
+    Recorded(Box<Recorded>),
     /// A page has connected.
     Joined(PageId),
     /// A page has sent a text.
     Said(PageId, String),
     /// Half a second has passed.
     Tick,
+}
+
+/// What was found in a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recorded {
+    /// Of the command that asked for it.
+    pub id: String,
+    /// Of the recording.
+    pub name: String,
+    /// Everything that was said in it, or why that cannot be had.
+    pub log: Result<EvidenceLog, String>,
 }
 
 /// A text for pages.
@@ -91,6 +107,8 @@ pub enum Output {
     /// Publish, now and again until there is a receipt.
     Comparison(Box<TrajectoryPreference>),
     /// Publish, now and again until there is a receipt.
+    History(Box<LearnerHistory>),
+    /// Publish, now and again until there is a receipt.
     Retraction(Box<Retraction>),
     /// Publish, now and again until there is a receipt.
     Response(Box<QueryResponse>),
@@ -98,6 +116,15 @@ pub enum Output {
     Preference(Box<RiskPreference>),
     /// Publish for RViz.
     Markers(Box<MarkerArray>),
+    /// Look up the recordings, and answer with [`Event::Recordings`].
+    LookUp,
+    /// Read a recording of this name for the command of this id, and answer with [`Event::Recorded`].
+    Read {
+        /// Of the command.
+        id: String,
+        /// Of the recording.
+        name: String,
+    },
     /// Send to pages.
     Told(Told),
     /// Log.
@@ -117,6 +144,7 @@ struct Changed {
     posterior: bool,
     answers: bool,
     nodes: bool,
+    recordings: bool,
     tabular: News,
 }
 
@@ -132,6 +160,7 @@ impl Changed {
         posterior: true,
         answers: true,
         nodes: true,
+        recordings: true,
         tabular: News::ALL,
     };
 }
@@ -152,6 +181,7 @@ pub struct OperatorUi {
     tabular: Tabular,
     presence: Presence,
     nodes: Vec<NodeView>,
+    recordings: Vec<RecordingView>,
     ticked: Option<Time>,
     last_warning: String,
 }
@@ -173,6 +203,7 @@ impl OperatorUi {
             tabular: Tabular::default(),
             presence: Presence::default(),
             nodes: Vec::new(),
+            recordings: Vec::new(),
             ticked: None,
             last_warning: String::new(),
         }
@@ -229,7 +260,15 @@ impl OperatorUi {
                 let sections = self.sections(Changed::ALL);
                 out.push(tell(Some(page), &ToPage::State { protocol: PROTOCOL, sections }));
             }
-            Event::Said(page, text) => match self.take_command(&now, &text) {
+            Event::Recordings(found) => {
+                self.recordings = found;
+                changed.recordings = true;
+            }
+            Event::Recorded(found) => {
+                changed.answers = true;
+                out.extend(self.take_up(now, *found));
+            }
+            Event::Said(page, text) => match self.take_command(&now, &text, &mut out) {
                 Ok(news) => {
                     changed.answers = true;
                     changed.tabular |= news;
@@ -248,6 +287,7 @@ impl OperatorUi {
             Evidence::Actions(message) => Output::Actions(message),
             Evidence::Critique(message) => Output::Critique(message),
             Evidence::Comparison(message) => Output::Comparison(message),
+            Evidence::History(message) => Output::History(message),
             Evidence::Retraction(message) => Output::Retraction(message),
             Evidence::Response(message) => Output::Response(message),
         }));
@@ -322,18 +362,49 @@ impl OperatorUi {
     }
 
     /// Carries out a page's command, or says why not.
-    fn take_command(&mut self, now: &Time, text: &str) -> Result<News, (Option<String>, String)> {
+    fn take_command(
+        &mut self,
+        now: &Time,
+        text: &str,
+        out: &mut Vec<Output>,
+    ) -> Result<News, (Option<String>, String)> {
         let command: FromPage =
             serde_json::from_str(text).map_err(|error| (None, format!("the page sent no command: {error}")))?;
         let id = Some(id_of(&command).chars().take(128).collect());
         if let FromPage::Caution { id: of, lambda } = &command {
             return self.tabular.say(now, &self.settings.source, of, *lambda).map_err(|reason| (id, reason));
         }
+        match &command {
+            FromPage::Recordings { .. } => {
+                out.push(Output::LookUp);
+                return Ok(News::NONE);
+            }
+            FromPage::Load { id, name } if is_uuid(id) => {
+                if self.answers.knows(id) {
+                    return Ok(News::NONE);
+                }
+                if !self.recordings.iter().any(|known| known.name == *name) {
+                    return Err((Some(id.clone()), "there is no such recording".into()));
+                }
+                out.push(Output::Read { id: id.clone(), name: name.clone() });
+                return Ok(News::NONE);
+            }
+            _ => {}
+        }
         match self.context().evidence(now, command) {
             Ok(None) => Ok(News::NONE),
             Ok(Some(evidence)) => self.answers.add(evidence).map(|()| News::NONE).map_err(|reason| (id, reason)),
             Err(reason) => Err((id, reason)),
         }
+    }
+
+    /// Begins a new lesson with what was said in a recording.
+    fn take_up(&mut self, now: Time, found: Recorded) -> Option<Output> {
+        let Recorded { id, name, log } = found;
+        let pieces = log.and_then(|log| said_once_more(&id, now, &log));
+        let begin = new_lesson(&id, now, &self.settings.source, &name);
+        let refused = pieces.and_then(|pieces| self.answers.take_up(begin, pieces)).err()?;
+        Some(tell(None, &ToPage::Refused { id: Some(id), reason: format!("'{name}' cannot be taken up: {refused}") }))
     }
 
     fn tick(&mut self, now: &Time) -> Option<Output> {
@@ -379,6 +450,7 @@ impl OperatorUi {
             trend: (changed.bounds || changed.lesson).then(trend),
             answers: changed.answers.then(|| self.answers.views()),
             nodes: changed.nodes.then(|| self.nodes.clone()),
+            recordings: changed.recordings.then(|| self.recordings.clone()),
             ..Sections::default()
         });
         self.tabular.fill(changed.tabular, &mut sections);

@@ -9,8 +9,8 @@ mod shown;
 mod world;
 
 pub use shown::{
-    AnswerView, BoundsView, Fate, LessonView, NodeView, ObjectView, PlanView, PosteriorView, QuestionView, SceneView,
-    SpotView, TrendPoint, UndoView,
+    AnswerView, BoundsView, Fate, LessonView, NodeView, ObjectView, PlanView, PosteriorView, QuestionView,
+    RecordingView, SceneView, SpotView, TrendPoint, UndoView,
 };
 pub use world::{
     BoundView, CautionView, FrontierView, LossPoint, PictureView, PointView, PolicyView, RobustBoundsView, WayView,
@@ -110,6 +110,9 @@ pub struct Sections {
     /// Every node that was heard of.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nodes: Option<Vec<NodeView>>,
+    /// Recordings that a lesson can be taken up from, the newest first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recordings: Option<Vec<RecordingView>>,
 }
 
 /// What kind of answer.
@@ -124,6 +127,14 @@ pub enum Kind {
     CantTell,
     /// Nothing is acceptable.
     Stop,
+    /// Ask nothing for a while.
+    Pause,
+    /// Begin to ask, or go on.
+    Start,
+    /// Enough has been said.
+    Finish,
+    /// What was said before counts no more.
+    NewLesson,
     /// It was shown what to do in states of a world.
     Actions,
     /// Trajectories were compared.
@@ -200,9 +211,9 @@ pub enum FromPage {
     Respond {
         /// Of the answer.
         id: String,
-        /// The open question.
+        /// The open question; may be empty for a word about the lesson.
         query_id: String,
-        /// [`Kind::Skip`], [`Kind::CantTell`] or [`Kind::Stop`].
+        /// [`Kind::Skip`], [`Kind::CantTell`], or a word about the lesson.
         kind: Kind,
         /// May be empty.
         #[serde(default)]
@@ -221,6 +232,18 @@ pub enum FromPage {
         id: String,
         /// Which.
         evidence_id: String,
+    },
+    /// Looks up the recordings anew.
+    Recordings {
+        /// Of the command.
+        id: String,
+    },
+    /// Begins a new lesson with what was said in a recording.
+    Load {
+        /// Of the command.
+        id: String,
+        /// Of the recording.
+        name: String,
     },
     /// How cautious the robot is to be in a world.
     Caution {

@@ -116,12 +116,16 @@ impl Context<'_> {
                     Kind::Skip => QueryResponse::SKIP,
                     Kind::CantTell => QueryResponse::CANT_TELL,
                     Kind::Stop => QueryResponse::STOP,
+                    Kind::Pause => QueryResponse::PAUSE,
+                    Kind::Start => QueryResponse::START,
+                    Kind::Finish => QueryResponse::FINISH,
+                    Kind::NewLesson => QueryResponse::NEW_LESSON,
                 };
                 if reason.len() > MAX_REASON {
                     return Err(format!("the reason has {} bytes; at most {MAX_REASON} are taken", reason.len()));
                 }
-                // Stopping must work whatever is being asked.
-                if kind != QueryResponse::STOP {
+                // A word about the lesson is heard whatever is being asked.
+                if [QueryResponse::SKIP, QueryResponse::CANT_TELL].contains(&kind) {
                     self.open(&query_id).map(drop).or_else(|_| self.world_open(&query_id).map(drop))?;
                 }
                 let header = Header { stamp: *now, frame_id: String::new() };
@@ -135,7 +139,9 @@ impl Context<'_> {
                 source,
                 reason: "taken back on the operator page".into(),
             })),
-            FromPage::Caution { .. } => return Err("a preference between mean and worst case is no evidence".into()),
+            FromPage::Caution { .. } | FromPage::Recordings { .. } | FromPage::Load { .. } => {
+                return Err("it is no evidence".into());
+            }
             FromPage::Again { id, evidence_id } => {
                 let before = self.answers.undone(&evidence_id)?.clone();
                 let open = self.world_query.filter(|_| self.is_world_open());
@@ -156,6 +162,8 @@ pub(crate) fn id_of(command: &FromPage) -> &str {
         | FromPage::Respond { id, .. }
         | FromPage::Retract { id, .. }
         | FromPage::Again { id, .. }
+        | FromPage::Recordings { id }
+        | FromPage::Load { id, .. }
         | FromPage::Caution { id, .. } => id,
     }
 }

@@ -3,19 +3,22 @@
 use crate::access::{Access, random_token};
 use crate::hub::Hub;
 use crate::server::{Limits, Server};
-use crate::{Event, OperatorUi, Output, Settings};
+use crate::{Event, OperatorUi, Output, Recorded, Settings, recordings};
 use apprentice_msgs::msg::{
-    ActionDemonstration, PlacementDemonstration, QueryResponse, Retraction, RiskPreference, SegmentCritique,
-    TrajectoryPreference,
+    ActionDemonstration, LearnerHistory, PlacementDemonstration, QueryResponse, Retraction, RiskPreference,
+    SegmentCritique, TrajectoryPreference,
 };
 use apprentice_msgs::visualization_msgs::MarkerArray;
-use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
+use bus::{Arguments, Bus, EventSender, Graph, Level, NodeError, Qos};
 use std::fs::File;
 use std::io::{Read, Write};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{SyncSender, sync_channel};
 use std::time::Duration;
 
+/// More wishes to read recordings are not kept.
+const MAX_WANTED: usize = 4;
 /// A longer token file is refused, bytes.
 const MAX_TOKEN_FILE: u64 = 1024;
 
@@ -34,6 +37,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let actions = bus.publisher::<ActionDemonstration>("action_demonstration", Qos::Event)?;
     let critique = bus.publisher::<SegmentCritique>("critique", Qos::Event)?;
     let comparison = bus.publisher::<TrajectoryPreference>("preference", Qos::Event)?;
+    let history = bus.publisher::<LearnerHistory>("learner_history", Qos::Event)?;
     let retraction = bus.publisher::<Retraction>("retraction", Qos::Event)?;
     let response = bus.publisher::<QueryResponse>("response", Qos::Event)?;
     let preference = bus.publisher::<RiskPreference>("risk_preference", Qos::State)?;
@@ -55,6 +59,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     bus.subscribe("heartbeat", Qos::Event, |message| Event::Heartbeat(Box::new(message)))?;
     bus.every(Duration::from_millis(500), || Event::Tick);
 
+    let files = files(PathBuf::from(&settings.recordings), bus.sender())?;
     let hub = Hub::new(usize::try_from(settings.max_pages).unwrap_or(1));
     let events = bus.sender();
     let server = Server::start(listener, access, hub.clone(), Limits::default(), move |event| events.send(event))
@@ -73,10 +78,14 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Output::Actions(message) => actions.publish(&message)?,
                 Output::Critique(message) => critique.publish(&message)?,
                 Output::Comparison(message) => comparison.publish(&message)?,
+                Output::History(message) => history.publish(&message)?,
                 Output::Retraction(message) => retraction.publish(&message)?,
                 Output::Response(message) => response.publish(&message)?,
                 Output::Preference(message) => preference.publish(&message)?,
                 Output::Markers(message) => markers.publish(&message)?,
+                // A page that asks for more than can be read asks again.
+                Output::LookUp => drop(files.try_send(Wanted::List)),
+                Output::Read { id, name } => drop(files.try_send(Wanted::Log { id, name })),
                 Output::Told(told) => hub.tell(told),
                 Output::Warn(text) => log::warn!("{text}"),
             }
@@ -88,6 +97,30 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
         }
     }
     Ok(())
+}
+
+/// What is wanted of the recordings.
+enum Wanted {
+    List,
+    Log { id: String, name: String },
+}
+
+/// Reads recordings beside everything else: a long one takes a while.
+fn files(folder: PathBuf, events: EventSender<Event>) -> Result<SyncSender<Wanted>, NodeError> {
+    let (wanted, received) = sync_channel(MAX_WANTED);
+    let work = move || {
+        for wanted in received {
+            events.send(match wanted {
+                Wanted::List => Event::Recordings(recordings::list(&folder)),
+                Wanted::Log { id, name } => {
+                    let log = recordings::read(&folder, &name);
+                    Event::Recorded(Box::new(Recorded { id, name, log }))
+                }
+            });
+        }
+    };
+    std::thread::Builder::new().name("recordings".into()).spawn(work).map_err(|error| start(&error))?;
+    Ok(wanted)
 }
 
 fn start(error: &dyn std::fmt::Display) -> NodeError {

@@ -22,6 +22,8 @@ pub struct Settings {
     pub allowed_hosts: Vec<String>,
     /// Pages that may be open at once.
     pub max_pages: i64,
+    /// Folder of recorded sessions that a lesson can be taken up from; empty for none.
+    pub recordings: String,
 }
 
 impl Default for Settings {
@@ -34,6 +36,7 @@ impl Default for Settings {
             source: "operator".into(),
             allowed_hosts: Vec::new(),
             max_pages: 16,
+            recordings: String::new(),
         }
     }
 }
@@ -79,6 +82,11 @@ impl NodeSettings for Settings {
             name: "max_pages",
             about: "pages that may be open at once",
             range: Range::Integer { min: 1, max: 256 },
+        },
+        ParameterSpec {
+            name: "recordings",
+            about: "folder of recorded sessions that a page may take a lesson up from; empty: none",
+            range: Range::Any,
         },
     ];
 

@@ -129,6 +129,8 @@ pub(crate) fn lesson_view(message: &LessonStatus) -> LessonView {
             LessonStatus::TAUGHT => "taught",
             LessonStatus::STOPPED => "stopped",
             LessonStatus::GAVE_UP => "gave_up",
+            LessonStatus::PAUSED => "paused",
+            LessonStatus::FINISHED => "finished",
             _ => "unknown",
         },
         reason: message.reason.clone(),

@@ -119,6 +119,8 @@ fn state(state: u8) -> &'static str {
         LessonStatus::TAUGHT => "taught",
         LessonStatus::STOPPED => "stopped",
         LessonStatus::GAVE_UP => "gave up",
+        LessonStatus::PAUSED => "paused",
+        LessonStatus::FINISHED => "finished",
         _ => "unknown",
     }
 }

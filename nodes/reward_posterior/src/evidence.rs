@@ -3,11 +3,11 @@
 use crate::weights::Weights;
 use apprentice_msgs::msg::{
     ActionDemonstration, EvidenceLog, EvidenceRecord, FeatureTrajectory, LearnerHistory, PlacementDemonstration,
-    QueryResponse, SegmentCritique, TableScene, TrajectoryPreference, WorldReference,
+    Posterior, QueryResponse, SegmentCritique, TableScene, TrajectoryPreference, WorldReference,
 };
 use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::to_cdr;
-use exchange::{ExchangeError, World, record_header, record_id, scene_from_message};
+use exchange::{ExchangeError, World, begins_lesson, in_force, record_header, record_id, scene_from_message};
 use scene::{Rbf, Scene};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -29,7 +29,6 @@ pub struct Evidence {
     offered: Option<Arc<World>>,
     records: Vec<EvidenceRecord>,
     by_id: HashMap<String, usize>,
-    retracted: HashSet<String>,
     n_bytes: usize,
 }
 
@@ -109,7 +108,7 @@ impl Evidence {
 
     /// Whether an accepted event has been taken back.
     pub fn is_retracted(&self, id: &str) -> bool {
-        self.retracted.contains(id)
+        self.records.iter().flat_map(|record| &record.retraction).any(|retraction| retraction.evidence_id == id)
     }
 
     /// Number of accepted events, which is the revision of the posterior.
@@ -140,9 +139,6 @@ impl Evidence {
             let world = world.ok_or_else(|| format!("it names the world '{}', which is not known", reference.id))?;
             self.set_world(world);
         }
-        if let Some(retraction) = record.retraction.first() {
-            self.retracted.insert(retraction.evidence_id.clone());
-        }
         if let Some(trajectory) = trajectories_of(&record).first() {
             self.weights.count(trajectory.features.len());
         }
@@ -155,12 +151,9 @@ impl Evidence {
         Ok(())
     }
 
-    /// The records in force, in accepted order: what has not been taken back, and is no retraction itself.
-    pub fn in_force(&self) -> impl Iterator<Item = &EvidenceRecord> {
-        let counts = |record: &&EvidenceRecord| {
-            record.kind != EvidenceRecord::RETRACTION && !self.is_retracted(record_id(record))
-        };
-        self.records.iter().filter(counts)
+    /// The records in force, in accepted order.
+    pub fn in_force(&self) -> impl DoubleEndedIterator<Item = &EvidenceRecord> {
+        in_force(&self.records)
     }
 
     /// Ids of what is in force.
@@ -216,7 +209,7 @@ impl Evidence {
         self.placements().last().map(|d| &d.scene).or(self.task.as_ref().map(|(message, _)| message))
     }
 
-    /// Questions answered or skipped, taken back or not.
+    /// Questions of this lesson answered or skipped, taken back or not.
     pub fn n_answers(&self) -> u64 {
         let answered = |record: &&EvidenceRecord| {
             let query_ids = [
@@ -225,15 +218,28 @@ impl Evidence {
                 record.preference.first().map(|m| &m.query_id),
                 record.critique.first().map(|m| &m.query_id),
             ];
-            query_ids.into_iter().flatten().any(|id| !id.is_empty()) || !record.response.is_empty()
+            let answers = [QueryResponse::SKIP, QueryResponse::CANT_TELL, QueryResponse::STOP];
+            query_ids.into_iter().flatten().any(|id| !id.is_empty())
+                || record.response.iter().any(|response| answers.contains(&response.kind))
         };
-        self.records.iter().filter(answered).count() as u64
+        let begins = self.in_force().rfind(|record| begins_lesson(record)).map_or(0, |record| record.sequence);
+        self.records.iter().filter(|record| record.sequence > begins).filter(answered).count() as u64
     }
 
-    /// Whether the person said that nothing is acceptable, and has not taken it back.
-    pub fn stopped(&self) -> bool {
-        let mut responses = self.in_force().filter_map(|record| record.response.first());
-        responses.any(|r| r.kind == QueryResponse::STOP)
+    /// What the person wants of the lesson itself, as in [`Posterior`]: to stop counts before to finish, that before the newest of
+    /// to pause and to start.
+    pub fn wish(&self) -> u8 {
+        let mut wish = Posterior::NO_WISH;
+        for response in self.in_force().filter_map(|record| record.response.first()) {
+            wish = match response.kind {
+                QueryResponse::STOP => return Posterior::STOP,
+                QueryResponse::FINISH => Posterior::FINISH,
+                QueryResponse::PAUSE if wish != Posterior::FINISH => Posterior::PAUSE,
+                QueryResponse::START if wish != Posterior::FINISH => Posterior::START,
+                _ => wish,
+            };
+        }
+        wish
     }
 
     /// Header of what is computed from the evidence: the stamp of the newest event, never a clock's.

@@ -20,7 +20,7 @@ pub(crate) fn posterior_message(settings: &Settings, evidence: &Evidence, hash: 
         evidence_hash: hash,
         n_demonstrations: evidence.placements().count() as u64,
         n_answers: evidence.n_answers(),
-        stopped: evidence.stopped(),
+        wish: evidence.wish(),
         task: evidence.task().map(|(message, _)| message.clone()).unwrap_or_default(),
         scene: evidence.newest_scene().cloned().unwrap_or_default(),
         world: evidence.world_reference(),

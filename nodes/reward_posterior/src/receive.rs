@@ -119,14 +119,19 @@ fn retraction(evidence: &Evidence, message: &Retraction) -> Result<(), Verdict> 
 }
 
 fn response(open: Open<'_>, message: &QueryResponse) -> Result<(), Verdict> {
-    if message.kind > QueryResponse::STOP {
-        return refuse(format!("its kind is {}; 0 (skip), 1 (can't tell) and 2 (stop) are known", message.kind));
+    match message.kind {
+        QueryResponse::SKIP | QueryResponse::CANT_TELL => is_open(open, &message.query_id),
+        // A word about the lesson must be heard whatever is being asked.
+        QueryResponse::STOP
+        | QueryResponse::PAUSE
+        | QueryResponse::START
+        | QueryResponse::FINISH
+        | QueryResponse::NEW_LESSON => Ok(()),
+        unknown => refuse(format!(
+            "its kind is {unknown}; known are 0 (skip), 1 (can't tell), 2 (stop), 3 (pause), 4 (start), 5 (finish) and 6 (new \
+             lesson)"
+        )),
     }
-    // Stopping must work whatever is being asked.
-    if message.kind != QueryResponse::STOP {
-        is_open(open, &message.query_id)?;
-    }
-    Ok(())
 }
 
 fn world(evidence: &Evidence) -> Result<&World, Verdict> {

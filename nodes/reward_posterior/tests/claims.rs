@@ -232,11 +232,63 @@ fn stop_needs_no_open_question_and_can_be_taken_back() {
     let mut bench = Bench::new();
     let stop = QueryResponse { id: "s".into(), kind: QueryResponse::STOP, ..QueryResponse::default() };
     assert_eq!(bench.receipt(Event::Response(Box::new(stop))).outcome, EvidenceReceipt::ACCEPTED);
-    assert!(bench.posterior().stopped);
+    assert_eq!(bench.posterior().wish, Posterior::STOP);
     bench.step(Event::Retraction(Box::new(back("r", "s"))));
-    assert!(!bench.posterior().stopped);
+    assert_eq!(bench.posterior().wish, Posterior::NO_WISH);
     let odd = QueryResponse { id: "o".into(), kind: 9, ..QueryResponse::default() };
     assert!(bench.receipt(Event::Response(Box::new(odd))).reason.starts_with("its kind is 9"));
+}
+
+fn word(id: &str, kind: u8) -> Event {
+    Event::Response(Box::new(QueryResponse { id: id.into(), kind, ..QueryResponse::default() }))
+}
+
+#[test]
+fn words_about_the_lesson_need_no_question_and_change_no_draw() {
+    let mut bench = Bench::new();
+    bench.show(shown("d1", 0.5, 0.5));
+    let before = bench.posterior();
+    let mut wish = |id: &str, kind| {
+        assert_eq!(bench.receipt(word(id, kind)).outcome, EvidenceReceipt::ACCEPTED);
+        let after = bench.posterior();
+        assert_eq!((&after.draws, &after.evidence_hash), (&before.draws, &before.evidence_hash));
+        assert_eq!(after.n_answers, before.n_answers + u64::from(kind == QueryResponse::STOP));
+        after.wish
+    };
+    assert_eq!(wish("p", QueryResponse::PAUSE), Posterior::PAUSE);
+    assert_eq!(wish("s", QueryResponse::START), Posterior::START);
+    assert_eq!(wish("p2", QueryResponse::PAUSE), Posterior::PAUSE);
+    assert_eq!(wish("f", QueryResponse::FINISH), Posterior::FINISH);
+    assert_eq!(wish("s2", QueryResponse::START), Posterior::FINISH, "an end is taken back, not started over");
+    assert_eq!(wish("x", QueryResponse::STOP), Posterior::STOP);
+    bench.step(Event::Retraction(Box::new(back("r1", "x"))));
+    bench.step(Event::Retraction(Box::new(back("r2", "f"))));
+    assert_eq!(bench.posterior().wish, Posterior::START);
+}
+
+#[test]
+fn a_new_lesson_knows_nothing_of_the_old_one_until_it_is_taken_back() {
+    let mut bench = Bench::new();
+    let blank = bench.posterior();
+    bench.show(shown("d1", 0.5, 0.5));
+    bench.receipt(word("p", QueryResponse::PAUSE));
+    let old = bench.posterior();
+    assert_eq!(bench.receipt(word("n", QueryResponse::NEW_LESSON)).outcome, EvidenceReceipt::ACCEPTED);
+    let new = bench.posterior();
+    assert_eq!((&new.draws, &new.evidence_hash, new.wish), (&blank.draws, &blank.evidence_hash, Posterior::NO_WISH));
+    assert_eq!((new.n_demonstrations, new.n_answers, new.revision), (0, 0, 3));
+    assert_eq!(new.task, old.task);
+    // A node that is killed now comes back into the new lesson.
+    let mut again = RewardPosterior::new(settings());
+    let (entries, _) = read_journal(&bench.journal).expect("it was just written");
+    again.restore(entries).expect("it fits");
+    assert_eq!(again.posterior().expect("evidence").expect("weights").draws, new.draws);
+    bench.show(shown("d2", 0.3, 0.6));
+    assert_eq!(bench.posterior().n_demonstrations, 1);
+    bench.step(Event::Retraction(Box::new(back("r1", "d2"))));
+    bench.step(Event::Retraction(Box::new(back("r2", "n"))));
+    let back_again = bench.posterior();
+    assert_eq!((&back_again.draws, back_again.wish), (&old.draws, Posterior::PAUSE));
 }
 
 #[test]

@@ -18,7 +18,7 @@ pub use evidence::{
 };
 pub use policies::{Checked, Form, MAX_POLICIES, PolicyError, check_policies};
 pub use posterior::{PosteriorError, check_posterior, is_about_a_table, is_about_scene};
-pub use record::{record_header, record_id};
+pub use record::{begins_lesson, in_force, record_header, record_id};
 pub use robust_policy::{
     PreferenceError, ROBUST_POLICY, RobustPolicyError, check_preference_of_risk, check_robust_policy,
     demonstrations_in_force, robust_set_id,

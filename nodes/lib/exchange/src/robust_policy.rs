@@ -1,9 +1,8 @@
 //! Robust policies and what is said about them, checked; and the demonstrations that regret is measured against.
 
-use crate::record_id;
+use crate::in_force;
 use crate::text::{TextError, check_id};
 use apprentice_msgs::msg::{ActionDemonstration, EvidenceLog, RiskPreference, RobustPolicy};
-use std::collections::HashSet;
 use thiserror::Error;
 
 /// Id of the robust policy in the sets that `policy_optimizer` has judged.
@@ -98,10 +97,8 @@ pub fn demonstrations_in_force<'a>(
     world_id: &str,
 ) -> Option<Vec<&'a ActionDemonstration>> {
     let records = log.records.get(..usize::try_from(revision).ok()?)?;
-    let retracted: HashSet<&str> =
-        records.iter().flat_map(|record| &record.retraction).map(|undo| undo.evidence_id.as_str()).collect();
-    let in_force = records.iter().filter(|record| !retracted.contains(record_id(record)));
-    Some(in_force.flat_map(|record| &record.actions).filter(|shown| shown.world_id == world_id).collect())
+    let shown = in_force(records).flat_map(|record| &record.actions);
+    Some(shown.filter(|shown| shown.world_id == world_id).collect())
 }
 
 #[cfg(test)]

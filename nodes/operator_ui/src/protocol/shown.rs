@@ -116,7 +116,7 @@ pub struct PlanView {
 pub struct LessonView {
     /// Of the posterior.
     pub revision: u64,
-    /// `asking`, `taught`, `stopped`, `gave_up` or `unknown`.
+    /// `asking`, `taught`, `stopped`, `gave_up`, `paused`, `finished` or `unknown`.
     pub state: &'static str,
     /// In words.
     pub reason: String,
@@ -223,6 +223,8 @@ pub enum Fate {
     Refused,
     /// Was part of the evidence and has been taken back.
     Undone,
+    /// Was part of the evidence of an earlier lesson.
+    Past,
 }
 
 /// One answer.
@@ -286,4 +288,17 @@ pub struct NodeView {
     pub state: &'static str,
     /// How often it was started anew while this node watched.
     pub restarts: u32,
+}
+
+/// A session that was recorded before.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RecordingView {
+    /// Of its file or folder.
+    pub name: String,
+    /// Of the first message, seconds since 1970; `null` when there is none.
+    pub began_s: Option<f64>,
+    /// From the first to the last message.
+    pub duration_s: f64,
+    /// On disk.
+    pub bytes: u64,
 }

@@ -2,8 +2,8 @@
 
 use super::{bounds, lesson, plan, posterior, query, receipt, scene};
 use apprentice_msgs::msg::{
-    ActionDemonstration, PlacementDemonstration, QueryResponse, Retraction, RiskPreference, SegmentCritique,
-    TrajectoryPreference,
+    ActionDemonstration, LearnerHistory, PlacementDemonstration, QueryResponse, Retraction, RiskPreference,
+    SegmentCritique, TrajectoryPreference,
 };
 use operator_ui::{Event, OperatorUi, Output, Settings};
 use serde_json::{Value, json};
@@ -26,6 +26,9 @@ pub struct Sent {
     pub retractions: Vec<Retraction>,
     pub responses: Vec<QueryResponse>,
     pub preferences: Vec<RiskPreference>,
+    pub histories: Vec<LearnerHistory>,
+    pub reads: Vec<(String, String)>,
+    pub lookups: usize,
     pub markers: usize,
 }
 
@@ -64,6 +67,9 @@ impl Table {
                 Output::Retraction(message) => sent.retractions.push(*message),
                 Output::Response(message) => sent.responses.push(*message),
                 Output::Preference(message) => sent.preferences.push(*message),
+                Output::History(message) => sent.histories.push(*message),
+                Output::Read { id, name } => sent.reads.push((id, name)),
+                Output::LookUp => sent.lookups += 1,
                 Output::Markers(_) => sent.markers += 1,
                 Output::Warn(_) => {}
                 Output::Told(told) => {
