@@ -31,6 +31,10 @@ pub(crate) const MESSAGES: &[&str] = &[
     "action_msgs/msg/GoalStatus",
     "action_msgs/msg/GoalStatusArray",
     "apprentice_msgs/msg/ActionDemonstration",
+    "apprentice_msgs/msg/ArmModel",
+    "apprentice_msgs/msg/ArmMotion",
+    "apprentice_msgs/msg/ArmPart",
+    "apprentice_msgs/msg/ArmPose",
     "apprentice_msgs/msg/Candidates",
     "apprentice_msgs/msg/CritiqueSegment",
     "apprentice_msgs/msg/EvidenceLog",
@@ -278,6 +282,40 @@ string world_id
 uint32[] states                  # any states in any order, each as often as it was shown
 uint32[] actions                 # taken in each of them
 uint8 confidence
+"#),
+    ("apprentice_msgs/msg/ArmModel", r#"# What the arm looks like to the planner: for pictures.
+std_msgs/Header header           # frame: the table's
+string robot_hash                # of the robot, as in PlacementPlan
+string[] link_names              # poses come in this order
+ArmPart[] parts
+"#),
+    ("apprentice_msgs/msg/ArmMotion", r#"# How the arm would carry out a plan: for pictures.
+std_msgs/Header header           # frame: the table's
+uint64 revision                  # of the plan
+string robot_hash                # of the robot, as in ArmModel
+float64[] times_s                # from the start, ascending; empty without a motion
+float32[] poses                  # for each time the poses of ArmPose
+float64[] way_m                  # of the tool: x, y, z for each point of the plan's trajectory
+SceneObject target               # where it will stand; without an extent when there is no place
+"#),
+    ("apprentice_msgs/msg/ArmPart", r#"# A solid of a link, as the planner checks it for collisions.
+uint8 BOX=0
+uint8 CYLINDER=1                 # along its z axis
+uint8 SPHERE=2
+uint8 CAPSULE=3                  # along its z axis
+uint8 MESH=4                     # convex
+
+uint32 link                      # in the order of ArmModel
+uint8 shape
+geometry_msgs/Pose pose          # of the solid in the link's frame
+geometry_msgs/Vector3 size_m     # box: the sides; else x the diameter, z the length, without the round ends; a mesh: unused
+float32[] points                 # of a mesh: x, y, z of each corner
+uint32[] triangles               # of a mesh: three corners each, counter-clockwise from outside
+"#),
+    ("apprentice_msgs/msg/ArmPose", r#"# Where the links of the arm are.
+std_msgs/Header header           # frame: the table's
+string robot_hash                # of the robot, as in ArmModel
+float32[] poses                  # for each link x, y, z in metres, then a unit quaternion x, y, z, w
 "#),
     ("apprentice_msgs/msg/Candidates", r#"# Hypothetical tables that active_query wants judged.
 std_msgs/Header header

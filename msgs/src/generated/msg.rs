@@ -38,6 +38,95 @@ impl crate::Message for ActionDemonstration {
     const TYPE: &'static str = "apprentice_msgs/msg/ActionDemonstration";
 }
 
+/// What the arm looks like to the planner: for pictures.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ArmModel {
+    /// frame: the table's (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// of the robot, as in PlacementPlan (`string`)
+    pub robot_hash: std::string::String,
+    /// poses come in this order (`string[]`)
+    pub link_names: Vec<std::string::String>,
+    /// (`ArmPart[]`)
+    pub parts: Vec<super::msg::ArmPart>,
+}
+
+impl crate::Message for ArmModel {
+    const TYPE: &'static str = "apprentice_msgs/msg/ArmModel";
+}
+
+/// How the arm would carry out a plan: for pictures.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ArmMotion {
+    /// frame: the table's (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// of the plan (`uint64`)
+    pub revision: u64,
+    /// of the robot, as in ArmModel (`string`)
+    pub robot_hash: std::string::String,
+    /// from the start, ascending; empty without a motion (`float64[]`)
+    pub times_s: Vec<f64>,
+    /// for each time the poses of ArmPose (`float32[]`)
+    pub poses: Vec<f32>,
+    /// of the tool: x, y, z for each point of the plan's trajectory (`float64[]`)
+    pub way_m: Vec<f64>,
+    /// where it will stand; without an extent when there is no place (`SceneObject`)
+    pub target: super::msg::SceneObject,
+}
+
+impl crate::Message for ArmMotion {
+    const TYPE: &'static str = "apprentice_msgs/msg/ArmMotion";
+}
+
+/// A solid of a link, as the planner checks it for collisions.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ArmPart {
+    /// in the order of ArmModel (`uint32`)
+    pub link: u32,
+    /// (`uint8`)
+    pub shape: u8,
+    /// of the solid in the link's frame (`geometry_msgs/Pose`)
+    pub pose: super::geometry_msgs::Pose,
+    /// box: the sides; else x the diameter, z the length, without the round ends; a mesh: unused (`geometry_msgs/Vector3`)
+    pub size_m: super::geometry_msgs::Vector3,
+    /// of a mesh: x, y, z of each corner (`float32[]`)
+    pub points: Vec<f32>,
+    /// of a mesh: three corners each, counter-clockwise from outside (`uint32[]`)
+    pub triangles: Vec<u32>,
+}
+
+impl ArmPart {
+    /// The constant `BOX`.
+    pub const BOX: u8 = 0;
+    /// along its z axis
+    pub const CYLINDER: u8 = 1;
+    /// The constant `SPHERE`.
+    pub const SPHERE: u8 = 2;
+    /// along its z axis
+    pub const CAPSULE: u8 = 3;
+    /// convex
+    pub const MESH: u8 = 4;
+}
+
+impl crate::Message for ArmPart {
+    const TYPE: &'static str = "apprentice_msgs/msg/ArmPart";
+}
+
+/// Where the links of the arm are.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ArmPose {
+    /// frame: the table's (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// of the robot, as in ArmModel (`string`)
+    pub robot_hash: std::string::String,
+    /// for each link x, y, z in metres, then a unit quaternion x, y, z, w (`float32[]`)
+    pub poses: Vec<f32>,
+}
+
+impl crate::Message for ArmPose {
+    const TYPE: &'static str = "apprentice_msgs/msg/ArmPose";
+}
+
 /// Hypothetical tables that active_query wants judged.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Candidates {

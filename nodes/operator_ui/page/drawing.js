@@ -73,6 +73,15 @@ export function drawObjects(layer, table, scene, onHeat) {
   }));
 }
 
+/** Places that the robot considered, by number. */
+export function drawSpots(layer, table, spots) {
+  layer.replaceChildren(...spots.map((spot) => {
+    const p = table.px({ x: spot.x_m, y: spot.y_m }), group = element("g", { transform: `translate(${p.x.toFixed(2)} ${p.y.toFixed(2)})` });
+    group.append(element("circle", { class: `spot ${spot.kind}`, r: 9 }), element("text", { class: "spot-number", y: 3.8, "text-anchor": "middle" }, spot.label));
+    return group;
+  }));
+}
+
 /** Where the robot would put the target, how far that is from the person's spot, and earlier answers to look at. */
 export function drawGuess(layer, table, scene, plan, marks, own) {
   const pieces = [], k = table.box.k;

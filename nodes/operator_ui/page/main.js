@@ -1,23 +1,27 @@
 // The page: keeps the newest sections of the node's state and what the person is doing, and shows both.
 
 import { GIVEN, canUndo, drawAnswers, fate } from "./answers.js";
+import { Carry } from "./carry.js";
 import { cm, isUnreachable, obstruction } from "./geometry.js";
 import { Link, newId } from "./link.js";
 import { colour, range } from "./maps.js";
 import { drawReceipt } from "./receipt.js";
+import { drawReport } from "./report.js";
 import { Session, lessonStart } from "./session.js";
 import { TableView } from "./table.js";
 import { drawTrend } from "./trend.js";
+import { CARRY } from "./words.js";
 import { WorldLesson } from "./world.js";
 
 const $ = (id) => document.getElementById(id);
-const state = { question: null, world_question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [], recordings: [] };
+const state = { question: null, world_question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [], recordings: [], arm: null, arm_pose: null, arm_motion: null };
 const own = { question: undefined, at: null, revealed: false, heat: false, sent: null, sentFor: null, correcting: false, look: null, problem: "" };
 
 const table = new TableView($("table"), { moved, submitted: submit, hovered });
 const link = new Link({ status, sections, refused, notice });
 const world = new WorldLesson(link, { undo, redo, changed: () => render() });
 const session = new Session({ send: (command) => send(command), ask: (command) => link.ask(command), undo });
+const carry = new Carry(() => render());
 const again = new Set();
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
@@ -147,6 +151,10 @@ for (const id of ["undo", "ask-undo"]) $(id).addEventListener("click", () => { c
 for (const id of ["redo", "ask-redo"]) $(id).addEventListener("click", () => { const answer = lastUndone(); if (answer) redo(answer); });
 for (const id of ["stop", "ask-stop"]) $(id).addEventListener("click", () => { $("stop-dialog").returnValue = ""; $("stop-dialog").showModal(); });
 $("stop-dialog").addEventListener("close", () => { if ($("stop-dialog").returnValue === "stop") respond("stop", $("stop-reason").value); $("stop-reason").value = ""; });
+$("report-open").addEventListener("click", () => { session.close(); drawReport($("report"), state, new Date()); $("report-dialog").showModal(); $("report-dialog").scrollTop = 0; });
+$("report-print").addEventListener("click", () => print());
+$("report-close").addEventListener("click", () => $("report-dialog").close());
+$("report-dialog").addEventListener("close", () => $("report").replaceChildren());
 $("heat").addEventListener("change", () => { own.heat = $("heat").checked; render(); });
 $("log-scale").addEventListener("change", renderProgress);
 $("answers").addEventListener("pointerleave", () => look(null));
@@ -223,9 +231,12 @@ function renderLesson() {
 
 function renderTable() {
   const shown = own.look?.scene ?? scene();
-  const guessed = own.look ? null : plan();
+  const guessed = own.look ? null : plan(), isTask = guessed !== null && guessed === state.plan;
+  const motion = isTask && state.arm_motion?.revision === guessed.revision ? state.arm_motion : null;
+  carry.render({ scene: shown, plan: isTask && reveal() ? guessed : null, arm: state.arm, pose: state.arm_pose, motion, dark: isDark() });
   table.show({
     scene: shown,
+    spots: carry.spots(),
     plan: guessed,
     heat: own.heat && reveal(),
     reveal: reveal(),
@@ -255,6 +266,7 @@ function renderLegend() {
 function renderReadout() {
   const shown = scene(), at = (isTeaching() || showsQuestion() ? own.at : null) ?? own.hover, map = plan();
 
+  if (carry.isSolid()) return text("readout", CARRY.hint);
   if (!shown || !at || own.look) return text("readout", own.look ? `An earlier answer: ${fate(own.look)}` : "Brown hatching: occupied. Grey hatching: out of the arm's reach.");
   const where = `${(at.x * 100).toFixed(1)} cm from the left, ${(at.y * 100).toFixed(1)} cm from the robot's edge`;
   const blocked = obstruction(shown, at), far = isUnreachable(map, shown, at);

@@ -2,7 +2,7 @@
 
 import { boundingRadius, isUnreachable, nearestFree, obstruction, shapeWords } from "./geometry.js";
 import { rewardPicture, shadePicture } from "./maps.js";
-import { drawBoard, drawGuess, drawObjects, element, footprint, sideways } from "./drawing.js";
+import { drawBoard, drawGuess, drawObjects, drawSpots, element, footprint, sideways } from "./drawing.js";
 
 const STEP_M = 0.005;
 const BIG_STEP_M = 0.02;
@@ -15,8 +15,8 @@ export class TableView {
     this.svg = svg;
     this.on = on;
     this.at = null;
-    this.view = { scene: null, plan: null, heat: false, reveal: false, movable: false, locked: false, marks: [] };
-    this.layers = Object.fromEntries(["board", "objects", "guess"].map((name) => [name, svg.appendChild(element("g", { class: name }))]));
+    this.view = { scene: null, plan: null, heat: false, reveal: false, movable: false, locked: false, marks: [], spots: [] };
+    this.layers = Object.fromEntries(["board", "objects", "guess", "spots"].map((name) => [name, svg.appendChild(element("g", { class: name }))]));
     this.target = svg.appendChild(element("g", { id: "target", "data-testid": "target", class: "target", tabindex: "0", role: "application" }));
     this.target.addEventListener("pointerdown", (event) => this.grab(event));
     this.target.addEventListener("pointermove", (event) => this.drag(event));
@@ -78,6 +78,7 @@ export class TableView {
     drawBoard(this.layers.board, this, { heat: this.heatUrl, shade: this.shadeUrl, movable });
     drawObjects(this.layers.objects, this, scene, Boolean(this.heatUrl));
     drawGuess(this.layers.guess, this, scene, reveal ? plan : null, marks, movable ? this.at : null);
+    drawSpots(this.layers.spots, this, this.view.spots);
     this.drawTarget(true);
   }
 

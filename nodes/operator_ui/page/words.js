@@ -61,3 +61,20 @@ export const SESSION = {
   })[word],
   recording: ({ began_s, duration_s, bytes }) => [began_s === null ? null : new Date(1000 * began_s).toLocaleString(), `${Math.round(duration_s / 60)} min`, `${(bytes / 1e6).toFixed(1)} MB`].filter(Boolean).join(" · "),
 };
+
+/** How the robot would carry out its plan. */
+export const CARRY = {
+  play: "Play the motion",
+  pause: "Pause",
+  noPicture: "This browser cannot draw in three dimensions.",
+  time: (seconds, last) => (seconds === null ? `The arm as it is; the motion takes ${last.toFixed(1)} s` : `${seconds.toFixed(1)} of ${last.toFixed(1)} s`),
+  picture: (scene, plan) => `The arm at the table with ${scene.objects.map((object) => object.label).join(", ") || "nothing on it"}.${plan ? ` ${plan.reason}` : ""} Arrow keys turn the picture, plus and minus bring it nearer.`,
+  hint: "Drag to turn the picture; with the focus on it, scroll or pinch to come nearer.",
+  considered: (n) => (n === 1 ? "The one place it considered" : `${n} places it considered`),
+  verdict: ({ x_m, y_m, verdict, reason }) => `${(100 * x_m).toFixed(1)} × ${(100 * y_m).toFixed(1)} cm: ${{ chosen: "chosen", next_best: "would do too" }[verdict] ?? reason}`,
+  numbers: ({ probability_best, cvar_m, clearance_m }) => [
+    probability_best === null ? null : `best for ${Math.round(100 * probability_best)} % of the rewards that fit`,
+    cvar_m === null ? null : `in the worst cases ${(100 * cvar_m).toFixed(1)} cm off`,
+    clearance_m === null ? null : `${(100 * clearance_m).toFixed(1)} cm free around it`,
+  ].filter(Boolean).join(" · "),
+};

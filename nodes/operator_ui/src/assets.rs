@@ -17,7 +17,7 @@ const JS: &str = "text/javascript; charset=utf-8";
 const SVG: &str = "image/svg+xml";
 
 /// Every file.
-pub(crate) const ASSETS: [Asset; 25] = [
+pub(crate) const ASSETS: [Asset; 32] = [
     Asset { path: "/", media_type: HTML, body: include_str!("../page/index.html") },
     Asset { path: "/style.css", media_type: CSS, body: include_str!("../page/style.css") },
     Asset { path: "/icon.svg", media_type: SVG, body: include_str!("../page/icon.svg") },
@@ -36,6 +36,13 @@ pub(crate) const ASSETS: [Asset; 25] = [
     Asset { path: "/road.js", media_type: JS, body: include_str!("../page/road.js") },
     Asset { path: "/ask.css", media_type: CSS, body: include_str!("../page/ask.css") },
     Asset { path: "/ask.js", media_type: JS, body: include_str!("../page/ask.js") },
+    Asset { path: "/carry.css", media_type: CSS, body: include_str!("../page/carry.css") },
+    Asset { path: "/carry.js", media_type: JS, body: include_str!("../page/carry.js") },
+    Asset { path: "/arm_view.js", media_type: JS, body: include_str!("../page/arm_view.js") },
+    Asset { path: "/poses.js", media_type: JS, body: include_str!("../page/poses.js") },
+    Asset { path: "/solids.js", media_type: JS, body: include_str!("../page/solids.js") },
+    Asset { path: "/report.css", media_type: CSS, body: include_str!("../page/report.css") },
+    Asset { path: "/report.js", media_type: JS, body: include_str!("../page/report.js") },
     Asset { path: "/session.css", media_type: CSS, body: include_str!("../page/session.css") },
     Asset { path: "/session.js", media_type: JS, body: include_str!("../page/session.js") },
     Asset { path: "/ways.js", media_type: JS, body: include_str!("../page/ways.js") },

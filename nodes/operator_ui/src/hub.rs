@@ -1,6 +1,6 @@
 //! The open pages, and the way of texts to them.
 
-use crate::node::Told;
+use crate::event::Told;
 use axum::extract::ws::Utf8Bytes;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -82,7 +82,7 @@ impl Hub {
 #[cfg(test)]
 mod tests {
     use super::{BACKLOG, Hub};
-    use crate::node::Told;
+    use crate::event::Told;
 
     #[test]
     fn a_page_that_does_not_read_is_cut_off_and_the_others_are_not_held_up() {

@@ -6,7 +6,9 @@
 
 mod access;
 mod answers;
+mod arm_picture;
 mod assets;
+mod event;
 mod evidence;
 mod hub;
 mod loading;
@@ -26,8 +28,9 @@ mod view;
 mod world_answers;
 
 pub use access::{Access, AccessError};
+pub use event::{Event, Output, Recorded, Told};
 pub use hub::{Hub, PageId};
-pub use node::{Event, OperatorUi, Output, Recorded, Told};
+pub use node::OperatorUi;
 pub use run::run;
 pub use server::{Limits, Server};
 pub use settings::Settings;

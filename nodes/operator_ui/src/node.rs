@@ -1,6 +1,8 @@
 //! The node as a state machine between the topics and the pages.
 
 use crate::answers::Answers;
+use crate::arm_picture::{ArmNews, ArmPicture};
+use crate::event::{Event, Output, Recorded, Told};
 use crate::evidence::Evidence;
 use crate::hub::PageId;
 use crate::loading::{new_lesson, said_once_more};
@@ -16,12 +18,7 @@ use crate::tabular::{News, Tabular};
 use crate::view::{
     bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point,
 };
-use apprentice_msgs::msg::{
-    ActionDemonstration, EvidenceLog, EvidenceReceipt, Heartbeat, LearnerHistory, LessonStatus, PerformanceBounds,
-    PlacementDemonstration, PlacementPlan, PlacementQuery, PolicyBounds, PolicyFrontier, Posterior, QueryResponse,
-    Retraction, RiskPreference, RobustPolicy, SegmentCritique, TableScene, TabularWorld, TrajectoryPreference,
-    WorldQuery,
-};
+use apprentice_msgs::msg::{LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, TableScene};
 use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::Time;
 
@@ -29,107 +26,6 @@ use bus::Time;
 const MAX_TREND: usize = 2000;
 /// A page is told that the node is alive this often, nanoseconds.
 const TICK_NS: i128 = 2_000_000_000;
-
-/// What happens to the node.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Event {
-    /// The table as it is.
-    Scene(Box<TableScene>),
-    /// The open question.
-    Query(Box<PlacementQuery>),
-    /// Where the lesson stands.
-    Lesson(Box<LessonStatus>),
-    /// A bound.
-    Bounds(Box<PerformanceBounds>),
-    /// A posterior.
-    Posterior(Box<Posterior>),
-    /// The robot's placement in the question's scene.
-    Guess(Box<PlacementPlan>),
-    /// The robot's placement on the table as it is.
-    Plan(Box<PlacementPlan>),
-    /// What became of some evidence.
-    Receipt(Box<EvidenceReceipt>),
-    /// Everything accepted so far.
-    Evidence(Box<EvidenceLog>),
-    /// The world of a lesson that is about one.
-    World(Box<TabularWorld>),
-    /// The open question about it.
-    WorldQuery(Box<WorldQuery>),
-    /// What the robot would do in it.
-    Policy(Box<RobustPolicy>),
-    /// What every caution buys.
-    Frontier(Box<PolicyFrontier>),
-    /// Bounds on policies, the robot's among them.
-    PolicyBounds(Box<PolicyBounds>),
-    /// A node is alive.
-    Heartbeat(Box<Heartbeat>),
-    /// The recordings that there are.
-    Recordings(Vec<RecordingView>),
-    /// What was said in a recording that a page wants to take up.
-    Recorded(Box<Recorded>),
-    /// A page has connected.
-    Joined(PageId),
-    /// A page has sent a text.
-    Said(PageId, String),
-    /// Half a second has passed.
-    Tick,
-}
-
-/// What was found in a recording.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Recorded {
-    /// Of the command that asked for it.
-    pub id: String,
-    /// Of the recording.
-    pub name: String,
-    /// Everything that was said in it, or why that cannot be had.
-    pub log: Result<EvidenceLog, String>,
-}
-
-/// A text for pages.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Told {
-    /// For this page; `None`: for all.
-    pub to: Option<PageId>,
-    /// JSON of a [`ToPage`].
-    pub text: String,
-}
-
-/// What the node wants done.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Output {
-    /// Publish, now and again until there is a receipt.
-    Demonstration(Box<PlacementDemonstration>),
-    /// Publish, now and again until there is a receipt.
-    Actions(Box<ActionDemonstration>),
-    /// Publish, now and again until there is a receipt.
-    Critique(Box<SegmentCritique>),
-    /// Publish, now and again until there is a receipt.
-    Comparison(Box<TrajectoryPreference>),
-    /// Publish, now and again until there is a receipt.
-    History(Box<LearnerHistory>),
-    /// Publish, now and again until there is a receipt.
-    Retraction(Box<Retraction>),
-    /// Publish, now and again until there is a receipt.
-    Response(Box<QueryResponse>),
-    /// Publish, now and again until a policy follows it.
-    Preference(Box<RiskPreference>),
-    /// Publish for RViz.
-    Markers(Box<MarkerArray>),
-    /// Look up the recordings, and answer with [`Event::Recordings`].
-    LookUp,
-    /// Read a recording of this name for the command of this id, and answer with [`Event::Recorded`].
-    Read {
-        /// Of the command.
-        id: String,
-        /// Of the recording.
-        name: String,
-    },
-    /// Send to pages.
-    Told(Told),
-    /// Log.
-    Warn(String),
-}
 
 /// Which sections have changed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -145,6 +41,7 @@ struct Changed {
     answers: bool,
     nodes: bool,
     recordings: bool,
+    arm: ArmNews,
     tabular: News,
 }
 
@@ -161,6 +58,7 @@ impl Changed {
         answers: true,
         nodes: true,
         recordings: true,
+        arm: ArmNews::ALL,
         tabular: News::ALL,
     };
 }
@@ -179,6 +77,7 @@ pub struct OperatorUi {
     trend: Vec<TrendPoint>,
     answers: Answers,
     tabular: Tabular,
+    arm: ArmPicture,
     presence: Presence,
     nodes: Vec<NodeView>,
     recordings: Vec<RecordingView>,
@@ -201,6 +100,7 @@ impl OperatorUi {
             trend: Vec::new(),
             answers: Answers::default(),
             tabular: Tabular::default(),
+            arm: ArmPicture::default(),
             presence: Presence::default(),
             nodes: Vec::new(),
             recordings: Vec::new(),
@@ -241,6 +141,15 @@ impl OperatorUi {
             },
             Event::Frontier(message) => changed.tabular |= self.tabular.take_frontier(&message),
             Event::PolicyBounds(message) => changed.tabular |= self.tabular.take_bounds(&message),
+            Event::ArmModel(message) => match self.arm.take_model(&message) {
+                Ok(news) => changed.arm = news,
+                Err(text) => self.warn(text, &mut out),
+            },
+            Event::ArmPose(message) => changed.arm = self.arm.take_pose(&message),
+            Event::ArmMotion(message) => match self.arm.take_motion(&message) {
+                Ok(news) => changed.arm = news,
+                Err(text) => self.warn(text, &mut out),
+            },
             Event::Guess(message) => {
                 let view = self.checked_plan(&message, &mut out);
                 changed.guess = replace(&mut self.guess, view);
@@ -453,6 +362,7 @@ impl OperatorUi {
             recordings: changed.recordings.then(|| self.recordings.clone()),
             ..Sections::default()
         });
+        self.arm.fill(changed.arm, &mut sections);
         self.tabular.fill(changed.tabular, &mut sections);
         sections
     }

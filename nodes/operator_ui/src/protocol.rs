@@ -5,12 +5,14 @@
 //! connection until it has seen what became of them; a command with a known id changes nothing. Numbers keep their
 //! full precision; what is not finite is `null`. Lengths are metres, the frame is the scene's.
 
+mod arm;
 mod shown;
 mod world;
 
+pub use arm::{ArmMotionView, ArmView, PartShape, PartView};
 pub use shown::{
-    AnswerView, BoundsView, Fate, LessonView, NodeView, ObjectView, PlanView, PosteriorView, QuestionView,
-    RecordingView, SceneView, SpotView, TrendPoint, UndoView,
+    AnswerView, BoundsView, CandidateView, Fate, LessonView, NodeView, ObjectView, PlanView, PosteriorView,
+    QuestionView, RecordingView, SceneView, SpotView, TrendPoint, UndoView,
 };
 pub use world::{
     BoundView, CautionView, FrontierView, LossPoint, PictureView, PointView, PolicyView, RobustBoundsView, WayView,
@@ -110,6 +112,15 @@ pub struct Sections {
     /// Every node that was heard of.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nodes: Option<Vec<NodeView>>,
+    /// What the arm looks like.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arm: Option<Option<ArmView>>,
+    /// Where it is: the poses of all links.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arm_pose: Option<Option<Vec<f64>>>,
+    /// How it would carry out the plan for the table as it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arm_motion: Option<Option<ArmMotionView>>,
     /// Recordings that a lesson can be taken up from, the newest first.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recordings: Option<Vec<RecordingView>>,

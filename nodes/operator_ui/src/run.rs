@@ -56,6 +56,9 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     bus.subscribe("robust_policy", Qos::State, |message| Event::Policy(Box::new(message)))?;
     bus.subscribe("policy_frontier", Qos::State, |message| Event::Frontier(Box::new(message)))?;
     bus.subscribe("policy_bounds", Qos::State, |message| Event::PolicyBounds(Box::new(message)))?;
+    bus.subscribe("arm_model", Qos::State, |message| Event::ArmModel(Box::new(message)))?;
+    bus.subscribe("arm_pose", Qos::Stream, |message| Event::ArmPose(Box::new(message)))?;
+    bus.subscribe("arm_motion", Qos::State, |message| Event::ArmMotion(Box::new(message)))?;
     bus.subscribe("heartbeat", Qos::Event, |message| Event::Heartbeat(Box::new(message)))?;
     bus.every(Duration::from_millis(500), || Event::Tick);
 

@@ -2,8 +2,8 @@
 
 use crate::access::{Access, AccessError};
 use crate::assets::{ASSETS, Asset};
+use crate::event::Event;
 use crate::hub::Hub;
-use crate::node::Event;
 use crate::protocol::MAX_FROM_PAGE;
 use crate::socket::converse;
 use axum::Router;

@@ -1,7 +1,7 @@
 //! The conversation with one page.
 
+use crate::event::Event;
 use crate::hub::PageId;
-use crate::node::Event;
 use crate::server::Shared;
 use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, close_code};
 use std::time::Duration;

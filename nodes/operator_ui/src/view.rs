@@ -1,17 +1,21 @@
 //! Messages as the pages see them: checked, with `null` for what is not finite.
 
 use crate::protocol::{
-    BoundsView, LessonView, ObjectView, PlanView, PosteriorView, QuestionView, SceneView, SpotView, TrendPoint,
+    BoundsView, CandidateView, LessonView, ObjectView, PlanView, PosteriorView, QuestionView, SceneView, SpotView,
+    TrendPoint,
 };
 use apprentice_msgs::geometry_msgs::Point;
 use apprentice_msgs::msg::{
-    LessonStatus, PerformanceBounds, PlacementBound, PlacementPlan, PlacementQuery, Posterior, TableScene,
+    LessonStatus, PerformanceBounds, PlacementBound, PlacementCandidate, PlacementPlan, PlacementQuery, Posterior,
+    TableScene,
 };
 use exchange::{ExchangeError, scene_from_message};
 use scene::{Object, Shape};
 
 /// A larger map is not shown.
 const MAX_MAP_SIDE: u32 = 256;
+/// More candidates are not shown.
+const MAX_CANDIDATES: usize = 50;
 
 /// `None` for what is not finite.
 pub(crate) fn finite(value: f64) -> Option<f64> {
@@ -31,7 +35,7 @@ pub(crate) fn scene_view(message: &TableScene) -> Result<SceneView, ExchangeErro
     })
 }
 
-fn object_view(object: &Object) -> ObjectView {
+pub(crate) fn object_view(object: &Object) -> ObjectView {
     let (shape, size_x_m, size_y_m, size_z_m) = match object.shape {
         Shape::Cylinder { radius_m, height_m } => ("cylinder", 2.0 * radius_m, 2.0 * radius_m, height_m),
         Shape::Box { width_m, depth_m, height_m } => ("box", width_m, depth_m, height_m),
@@ -105,6 +109,7 @@ pub(crate) fn plan_view(message: &PlacementPlan) -> (PlanView, Option<String>) {
         alpha: finite(message.alpha),
         inside_bound: message.inside_bound,
         motion_s,
+        candidates: message.candidates.iter().take(MAX_CANDIDATES).filter_map(candidate_view).collect(),
         map_side: if good { side } else { 0 },
         reward_map: if good {
             message.reward_map.iter().map(|&v| v.is_finite().then_some(v)).collect()
@@ -114,6 +119,26 @@ pub(crate) fn plan_view(message: &PlacementPlan) -> (PlanView, Option<String>) {
         cell_state: if good { message.cell_state.clone() } else { Vec::new() },
     };
     (view, complaint)
+}
+
+/// A place that was considered; none when it is nowhere.
+fn candidate_view(message: &PlacementCandidate) -> Option<CandidateView> {
+    Some(CandidateView {
+        x_m: finite(message.position.x)?,
+        y_m: finite(message.position.y)?,
+        verdict: match message.verdict {
+            PlacementCandidate::CHOSEN => "chosen",
+            PlacementCandidate::NEXT_BEST => "next_best",
+            PlacementCandidate::UNREACHABLE => "unreachable",
+            PlacementCandidate::NO_PATH => "no_path",
+            PlacementCandidate::BLOCKED => "blocked",
+            _ => "unknown",
+        },
+        reason: message.reason.clone(),
+        probability_best: finite(message.probability_best),
+        cvar_m: finite(message.cvar_m),
+        clearance_m: finite(message.clearance_m),
+    })
 }
 
 fn spot(point: &Point) -> Option<SpotView> {

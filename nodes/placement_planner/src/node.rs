@@ -9,7 +9,8 @@ use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::control_msgs::FollowJointTrajectory;
 use apprentice_msgs::moveit_msgs::PlanningScene;
 use apprentice_msgs::msg::{
-    LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, SceneObject, TableScene,
+    ArmModel, ArmMotion, ArmPose, LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, SceneObject,
+    TableScene,
 };
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::tf2_msgs::TFMessage;
@@ -69,6 +70,12 @@ pub enum Output {
     Transforms(TFMessage),
     /// The plan, drawn.
     Markers(Box<MarkerArray>),
+    /// What the arm looks like.
+    ArmModel(Box<ArmModel>),
+    /// Where its links are.
+    ArmPose(ArmPose),
+    /// How it would carry out the plan.
+    ArmMotion(Box<ArmMotion>),
     /// Something a person should know.
     Warn(String),
 }
@@ -155,10 +162,11 @@ impl PlacementPlanner {
     /// What other programs are to be shown after `outputs`.
     fn share(&mut self, now: Time, outputs: &[Output], again: bool) -> Vec<Output> {
         let mut shown = Vec::new();
-        let way = |arm: Option<&Manipulator>, plan| arm.map(|arm| Way::new(arm, plan)).unwrap_or_default();
+        let joints = &self.joints;
+        let way = |arm: Option<&Manipulator>, plan| arm.map(|arm| Way::new(arm, plan, joints)).unwrap_or_default();
         for output in outputs {
             match output {
-                Output::Plan(plan) => shown.push(self.sharing.draw(plan, &way(self.planner.manipulator(), plan))),
+                Output::Plan(plan) => shown.extend(self.sharing.draw(plan, &way(self.planner.manipulator(), plan))),
                 Output::Deed(Deed::Send(..)) => self.sharing.picked_up(),
                 // An empty trajectory only stops the arm.
                 Output::Deed(Deed::Publish(trajectory)) if !trajectory.points.is_empty() => self.sharing.picked_up(),
@@ -172,6 +180,9 @@ impl PlacementPlanner {
             shown.extend(self.sharing.wipe());
         }
         shown.extend(self.sharing.show(now, self.scene.as_deref(), again));
+        if let (Some(arm), Some(scene)) = (self.planner.manipulator(), self.scene.as_deref()) {
+            shown.extend(self.sharing.show_arm(now, arm, &self.robot_hash, scene, &self.joints, again));
+        }
         shown
     }
 

@@ -4,7 +4,7 @@ use crate::{Deed, Event, Output, PlacementPlanner, RobotFiles, Settings};
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::control_msgs::FollowJointTrajectory;
 use apprentice_msgs::moveit_msgs::PlanningScene;
-use apprentice_msgs::msg::PlacementPlan;
+use apprentice_msgs::msg::{ArmModel, ArmMotion, ArmPose, PlacementPlan};
 use apprentice_msgs::std_msgs;
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
@@ -26,6 +26,9 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let planning_scene = bus.publisher::<PlanningScene>("/planning_scene", Qos::State)?;
     let transforms = bus.publisher::<TFMessage>("/tf", Qos::Event)?;
     let markers = bus.publisher::<MarkerArray>("plan_markers", Qos::State)?;
+    let arm_model = bus.publisher::<ArmModel>("arm_model", Qos::State)?;
+    let arm_pose = bus.publisher::<ArmPose>("arm_pose", Qos::Stream)?;
+    let arm_motion = bus.publisher::<ArmMotion>("arm_motion", Qos::State)?;
     bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
     bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
@@ -87,6 +90,9 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Output::PlanningScene(message) => planning_scene.publish(&message)?,
                 Output::Transforms(message) => transforms.publish(&message)?,
                 Output::Markers(message) => markers.publish(&message)?,
+                Output::ArmModel(message) => arm_model.publish(&message)?,
+                Output::ArmPose(message) => arm_pose.publish(&message)?,
+                Output::ArmMotion(message) => arm_motion.publish(&message)?,
                 Output::Warn(text) => log::warn!("{text}"),
             }
         }

@@ -48,6 +48,7 @@ mod scan;
 mod solid;
 mod srdf;
 mod stand_in;
+mod surface;
 mod sweep;
 mod world;
 

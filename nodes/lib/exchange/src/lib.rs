@@ -23,7 +23,9 @@ pub use robust_policy::{
     PreferenceError, ROBUST_POLICY, RobustPolicyError, check_preference_of_risk, check_robust_policy,
     demonstrations_in_force, robust_set_id,
 };
-pub use table::{ExchangeError, point_from_message, point_to_message, scene_from_message, scene_to_message};
+pub use table::{
+    ExchangeError, object_from_message, point_from_message, point_to_message, scene_from_message, scene_to_message,
+};
 pub use text::{MAX_ID, TextError};
 pub use world::{Picture, World, WorldError, world_from_message, world_hash, world_to_message};
 pub use world_query::{MAX_SHOWN_STEPS, WorldQueryError, check_world_query, feature_trajectory};

@@ -99,7 +99,11 @@ pub fn point_to_message(at_m: Point) -> PointMessage {
     PointMessage { x: at_m.x, y: at_m.y, z: 0.0 }
 }
 
-fn object_from_message(message: &SceneObject) -> Result<Object, ExchangeError> {
+/// An object by itself; whether its numbers make sense is for its scene to say.
+///
+/// # Errors
+/// A shape that is not known, or one that stands at a tilt.
+pub fn object_from_message(message: &SceneObject) -> Result<Object, ExchangeError> {
     let id = || message.id.chars().take(128).collect::<String>();
     let Vector3 { x, y, z } = message.size_m;
     let shape = match message.shape {

@@ -149,29 +149,40 @@ impl Manipulator {
         q
     }
 
-    /// The tool in the table's frame along a trajectory: one pose for each of `points`, positions of the joints `names`; other
-    /// joints stay where `start` has them. `None` where nobody says where the table is.
-    pub fn tool_poses<'p>(
+    /// Every link in the table's frame, in the order of [`Robot::links`]. `None` where nobody says where the table is.
+    pub fn link_poses(&self, table_frame: &str, joints: &[(String, f64)]) -> Option<Vec<Isometry3<f64>>> {
+        let table_from_root = self.root_from_table(table_frame)?.inverse();
+        let mut poses = Vec::new();
+        self.robot.link_poses(&self.configuration(joints), &mut poses);
+        poses.iter_mut().for_each(|pose| *pose = table_from_root * *pose);
+        Some(poses)
+    }
+
+    /// The same along a trajectory: for each of `points`, positions of the joints `names`; other joints stay where `start` has them.
+    pub fn poses_along<'p>(
         &self,
         table_frame: &str,
         start: &[(String, f64)],
         names: &[String],
         points: impl Iterator<Item = &'p [f64]>,
-    ) -> Option<Vec<Isometry3<f64>>> {
-        let table_from_root = self.root_from_table(table_frame)?.inverse();
+    ) -> Option<Vec<Vec<Isometry3<f64>>>> {
         let mut joints = start.to_vec();
-        let mut poses = Vec::new();
-        let tools = points.map(|positions| {
-            for (name, &position) in names.iter().zip(positions) {
-                match joints.iter_mut().find(|(joint, _)| joint == name) {
-                    Some((_, at)) => *at = position,
-                    None => joints.push((name.clone(), position)),
+        points
+            .map(|positions| {
+                for (name, &position) in names.iter().zip(positions) {
+                    match joints.iter_mut().find(|(joint, _)| joint == name) {
+                        Some((_, at)) => *at = position,
+                        None => joints.push((name.clone(), position)),
+                    }
                 }
-            }
-            self.robot.link_poses(&self.configuration(&joints), &mut poses);
-            table_from_root * poses[self.chain.tool]
-        });
-        Some(tools.collect())
+                self.link_poses(table_frame, &joints)
+            })
+            .collect()
+    }
+
+    /// The link that holds the target, in the order of [`Robot::links`].
+    pub fn tool_link(&self) -> usize {
+        self.chain.tool
     }
 
     fn root_from_table(&self, frame: &str) -> Option<Isometry3<f64>> {

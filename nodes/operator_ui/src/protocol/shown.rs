@@ -103,12 +103,33 @@ pub struct PlanView {
     pub inside_bound: bool,
     /// Duration of the motion, seconds; 0 without one.
     pub motion_s: f64,
+    /// Places that were considered, best first.
+    pub candidates: Vec<CandidateView>,
     /// Cells along each side of the maps.
     pub map_side: u32,
     /// Mean reward, `map_side` squared cells, row by row from the robot's side; empty without a map.
     pub reward_map: Vec<Option<f32>>,
     /// 0 free, 1 occupied, 2 out of reach; as long as `reward_map`, or empty.
     pub cell_state: Vec<u8>,
+}
+
+/// A place that was considered.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CandidateView {
+    /// To the right.
+    pub x_m: f64,
+    /// Away from the robot.
+    pub y_m: f64,
+    /// `chosen`, `next_best`, `unreachable`, `no_path`, `blocked` or `unknown`.
+    pub verdict: &'static str,
+    /// The same in words.
+    pub reason: String,
+    /// Share of the draws whose own best place is near.
+    pub probability_best: Option<f64>,
+    /// Conditional value at risk of the distance to each draw's own best place.
+    pub cvar_m: Option<f64>,
+    /// To the nearest object or edge.
+    pub clearance_m: Option<f64>,
 }
 
 /// Where the lesson stands.

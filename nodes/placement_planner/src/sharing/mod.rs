@@ -1,5 +1,6 @@
 //! What other programs are shown: MoveIt the table, tf where things stand, RViz the plan.
 
+mod arm_picture;
 mod markers;
 mod planning_scene;
 mod transforms;
@@ -9,9 +10,10 @@ pub(crate) use way::Way;
 
 use crate::Output;
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::msg::{PlacementPlan, SceneObject, TableScene};
+use apprentice_msgs::msg::{ArmMotion, PlacementPlan, SceneObject, TableScene};
+use apprentice_msgs::std_msgs::Header;
 use exchange::{pose_at, scene_from_message, scene_to_message};
-use placement::resting_height_m;
+use placement::{Manipulator, resting_height_m};
 use scene::Point;
 use std::collections::BTreeSet;
 
@@ -26,7 +28,16 @@ pub(crate) struct Sharing {
     told: (String, BTreeSet<String>),
     /// The frame of the plan that is drawn, if one is.
     drawn: Option<String>,
+    /// Robot and frame of the arm that was shown.
+    arm: Option<(String, String)>,
+    /// When its links were told last, and the joints they came from.
+    told_at: Option<(Time, Vec<(String, f64)>)>,
 }
+
+/// The links are told this often, at most, nanoseconds.
+const TOLD_EVERY_NS: i128 = 100_000_000;
+/// A joint that moved less stands, radians or metres.
+const STANDS: f64 = 1e-3;
 
 impl Sharing {
     /// The table changed from what was `known`. What the arm put down still stands there, seen or not, unless the table or the
@@ -68,14 +79,49 @@ impl Sharing {
     }
 
     /// A new plan, drawn.
-    pub(crate) fn draw(&mut self, plan: &PlacementPlan, way: &Way) -> Output {
+    pub(crate) fn draw(&mut self, plan: &PlacementPlan, way: &Way) -> [Output; 2] {
         self.drawn = Some(plan.scene.header.frame_id.clone());
-        Output::Markers(Box::new(markers::markers(plan, way)))
+        let motion = arm_picture::motion(plan, way);
+        [Output::Markers(Box::new(markers::markers(plan, way))), Output::ArmMotion(Box::new(motion))]
     }
 
     /// Takes away the picture of a plan that holds no more.
-    pub(crate) fn wipe(&mut self) -> Option<Output> {
-        self.drawn.take().map(|frame| Output::Markers(Box::new(markers::no_markers(&frame))))
+    pub(crate) fn wipe(&mut self) -> Vec<Output> {
+        let Some(frame) = self.drawn.take() else { return Vec::new() };
+        let header = Header { frame_id: frame.clone(), ..Header::default() };
+        let nothing = ArmMotion { header, ..ArmMotion::default() };
+        vec![Output::Markers(Box::new(markers::no_markers(&frame))), Output::ArmMotion(Box::new(nothing))]
+    }
+
+    /// The arm, when it is another or in another frame, or `again`, and where its links are, when that changed.
+    pub(crate) fn show_arm(
+        &mut self,
+        now: Time,
+        arm: &Manipulator,
+        robot_hash: &str,
+        scene: &TableScene,
+        joints: &[(String, f64)],
+        again: bool,
+    ) -> Vec<Output> {
+        let frame = &scene.header.frame_id;
+        let mut shown = Vec::new();
+        let is_known = self.arm.as_ref().is_some_and(|(hash, of)| (hash.as_str(), of) == (robot_hash, frame));
+        if !is_known || again {
+            self.arm = Some((robot_hash.to_owned(), frame.clone()));
+            self.told_at = None;
+            shown.push(Output::ArmModel(Box::new(arm_picture::model(arm, robot_hash, frame))));
+        }
+        let near = |(a, b): (&(String, f64), &(String, f64))| a.0 == b.0 && (a.1 - b.1).abs() < STANDS;
+        let stands = |before: &[(String, f64)]| before.len() == joints.len() && before.iter().zip(joints).all(near);
+        let too_soon = |(at, before): &(Time, Vec<(String, f64)>)| {
+            (0..TOLD_EVERY_NS).contains(&now.nanoseconds_since(at)) || stands(before)
+        };
+        if joints.is_empty() || self.told_at.as_ref().is_some_and(too_soon) {
+            return shown;
+        }
+        self.told_at = Some((now, joints.to_vec()));
+        shown.extend(arm_picture::arm_pose(arm, robot_hash, frame, joints, now).map(Output::ArmPose));
+        shown
     }
 }
 

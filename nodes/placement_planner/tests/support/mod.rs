@@ -71,7 +71,10 @@ pub fn joints() -> JointState {
 /// What a node does about an event, what it shows to other programs left out.
 pub fn step(node: &mut PlacementPlanner, event: Event) -> Vec<Output> {
     let mut outputs = node.step(Time::default(), event);
-    outputs.retain(|o| !matches!(o, Output::PlanningScene(_) | Output::Transforms(_) | Output::Markers(_)));
+    outputs.retain(|output| {
+        let is_shown = matches!(output, Output::PlanningScene(_) | Output::Transforms(_) | Output::Markers(_));
+        !is_shown && !matches!(output, Output::ArmModel(_) | Output::ArmPose(_) | Output::ArmMotion(_))
+    });
     outputs
 }
 
