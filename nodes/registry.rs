@@ -26,6 +26,7 @@ pub fn nodes() -> Vec<Node> {
         node::<session_recorder::Settings>(session_recorder::run),
         node::<simulated_table::Settings>(simulated_table::run),
         node::<simulated_world::Settings>(simulated_world::run),
+        node::<table_perception::Settings>(table_perception::run),
     ]
 }
 

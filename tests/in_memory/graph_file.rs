@@ -48,6 +48,8 @@ fn the_nodes_take_and_give_what_the_graph_file_says() {
     // The lesson is about the table by now: the world has another number of weights and is left aside.
     lesson.start("simulated_world", simulated_world::run, &[]);
     lesson.start("policy_optimizer", policy_optimizer::run, &[]);
+    let cup = ["object_ids:=[cup]", "object_shapes:=[cylinder]", "object_sizes_m:=[0.08,0.08,0.1]"];
+    lesson.start("table_perception", table_perception::run, &cup);
 
     // The nodes that were started last may still be making their endpoints.
     let complete = |nodes: &BTreeMap<String, NodeEntry>| {

@@ -3,7 +3,7 @@
 use crate::files::{self, File};
 
 /// The crates of the nodes.
-const NODES: [&str; 13] = [
+const NODES: [&str; 14] = [
     "active_query",
     "bag_player",
     "bringup",
@@ -16,6 +16,7 @@ const NODES: [&str; 13] = [
     "session_recorder",
     "simulated_table",
     "simulated_world",
+    "table_perception",
     "replay",
 ];
 

@@ -34,6 +34,7 @@ fn every_node_tells_its_parameters() {
     let nodes = ["demonstrator", "simulated_table", "reward_posterior", "performance_bounds", "active_query"];
     for node in nodes.into_iter().chain([
         "simulated_world",
+        "table_perception",
         "policy_optimizer",
         "placement_planner",
         "session_recorder",

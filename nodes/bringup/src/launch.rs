@@ -5,9 +5,10 @@ use bus::Arguments;
 use std::path::{Path, PathBuf};
 
 /// In the order of starting: the recorder first, so that the bag holds everything; who answers last.
-const ORDER: [&str; 10] = [
+const ORDER: [&str; 11] = [
     "session_recorder",
     "simulated_table",
+    "table_perception",
     "simulated_world",
     "reward_posterior",
     "performance_bounds",
@@ -54,7 +55,9 @@ pub fn launch(
 ) -> Result<Vec<LaunchNode>, BringupError> {
     let subject = Subject::of(&read_parameters(&session.path("parameters.yaml"))?);
     let wanted = ORDER.into_iter().filter(|&name| match name {
-        "simulated_table" | "placement_planner" => subject == Subject::Table,
+        "simulated_table" => subject == Subject::Table,
+        "table_perception" => subject == Subject::DetectedTable,
+        "placement_planner" => subject != Subject::World,
         "simulated_world" | "policy_optimizer" => subject == Subject::World,
         "session_recorder" => settings.record,
         "operator_ui" => !settings.headless,
@@ -173,12 +176,21 @@ mod tests {
                 Settings { session: root.path().join("s").to_string_lossy().into_owned(), ..Settings::default() };
             let session = Session::open(&settings, "").expect("opens");
             std::fs::write(session.path("parameters.yaml"), text).expect("writes");
-            let nodes = ["simulated_table", "simulated_world", "policy_optimizer", "placement_planner", "active_query"];
+            let nodes = [
+                "simulated_table",
+                "table_perception",
+                "simulated_world",
+                "policy_optimizer",
+                "placement_planner",
+                "active_query",
+            ];
             let common = Common { log_level: "info".to_owned(), ..Common::default() };
             let launched = launch(&settings, &session, &nodes.map(node), &common).expect("good parameters");
             launched.iter().map(|node| node.name).collect::<Vec<_>>()
         };
         assert_eq!(of(""), ["simulated_table", "active_query", "placement_planner"]);
+        let detected = "/**/table_perception:\n  ros__parameters: {}\n";
+        assert_eq!(of(detected), ["table_perception", "active_query", "placement_planner"]);
         let world = "/**/simulated_world:\n  ros__parameters: {}\n";
         assert_eq!(of(world), ["simulated_world", "active_query", "policy_optimizer"]);
     }

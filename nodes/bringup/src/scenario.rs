@@ -49,8 +49,10 @@ impl Scenario {
 /// What a lesson is about, which decides what nodes it needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Subject {
-    /// A table to set.
+    /// A simulated table to set.
     Table,
+    /// A real one, seen by detectors: its parameters name `table_perception`.
+    DetectedTable,
     /// A world to act in: its parameters name `simulated_world`.
     World,
 }
@@ -58,10 +60,14 @@ pub enum Subject {
 impl Subject {
     /// Of a scenario's parameters. What is wrong with them is for the nodes to say.
     pub fn of(text: &str) -> Self {
-        let is_world = |pattern: &String| pattern.rsplit('/').next() == Some("simulated_world");
-        match bus::sections_of(text) {
-            Ok(sections) if sections.iter().any(is_world) => Self::World,
-            _ => Self::Table,
+        let sections = bus::sections_of(text).unwrap_or_default();
+        let names = |node: &str| sections.iter().any(|pattern| pattern.rsplit('/').next() == Some(node));
+        if names("simulated_world") {
+            Self::World
+        } else if names("table_perception") {
+            Self::DetectedTable
+        } else {
+            Self::Table
         }
     }
 }
@@ -90,6 +96,7 @@ mod tests {
         let subjects = BUILT_IN.map(|(_, text)| Subject::of(text));
         assert_eq!(subjects, [Subject::Table, Subject::Table, Subject::World, Subject::World]);
         assert_eq!(Subject::of("/**/simulated_world_2:\n  ros__parameters: {}"), Subject::Table);
+        assert_eq!(Subject::of("/**/table_perception:\n  ros__parameters: {}"), Subject::DetectedTable);
         assert_eq!(Subject::of("not: [a, parameter file"), Subject::Table);
     }
 

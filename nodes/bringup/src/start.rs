@@ -120,9 +120,9 @@ fn introduce(
     // What cannot be read by now is for the nodes to complain of.
     let subject = read_parameters(&session.path("parameters.yaml")).map_or(Subject::Table, |text| Subject::of(&text));
     let who = match (settings.demonstrator, subject) {
-        (Demonstrator::Simulated, Subject::Table) => "a simulated person answers",
+        (Demonstrator::Simulated, Subject::Table | Subject::DetectedTable) => "a simulated person answers",
         (Demonstrator::Simulated, Subject::World) => "a simulated person teaches",
-        (Demonstrator::Human, Subject::Table) => "you answer, on the page",
+        (Demonstrator::Human, Subject::Table | Subject::DetectedTable) => "you answer, on the page",
         (Demonstrator::Human, Subject::World) => {
             "you teach, with any ROS client; the page shows what the robot would do"
         }
