@@ -36,7 +36,9 @@ pub(crate) fn table_to_ask(
         _ if possible.len() < 2 => Ok(largest),
         Strategy::Var => Ok(largest),
         Strategy::Random => Ok(possible[mdp::random::index(possible.len(), &mut rng)]),
-        Strategy::Information => most_informative(posterior, tables, &possible, &mut rng),
+        Strategy::Information | Strategy::Entropy | Strategy::RewardInformation | Strategy::LookAhead => {
+            most_informative(posterior, tables, &possible, &mut rng)
+        }
     }
 }
 

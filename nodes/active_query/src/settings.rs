@@ -16,6 +16,12 @@ pub enum Strategy {
     Information,
     /// Any.
     Random,
+    /// In a world, AS: the state in which the rewards that fit disagree most about what to do (Lopes et al. 2009).
+    Entropy,
+    /// In a world, ARC: the answer that is expected to tell most about the reward per second (Cui and Niekum 2018).
+    RewardInformation,
+    /// In a world, the answer that is expected to bring the value at risk down most per second, the robot having taken up what is then best.
+    LookAhead,
 }
 
 /// What may be asked about a world.
@@ -103,8 +109,10 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "strategy",
-            about: "by what a question is chosen: the largest risk, the most telling answer, or at random",
-            range: Range::Choice(&["var", "information", "random"]),
+            about: "by what a question is chosen: the largest risk, the answer that tells most of whether the risk is too large, or at \
+                    random; in a world also where the rewards that fit disagree most (AS), what tells most of the reward (ARC), or \
+                    what brings the risk down most; about a table these three choose as information does",
+            range: Range::Choice(&["var", "information", "random", "entropy", "reward_information", "look_ahead"]),
         },
         ParameterSpec {
             name: "question_kinds",

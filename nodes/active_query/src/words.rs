@@ -30,8 +30,8 @@ pub(crate) fn why(
         let tables = match strategy {
             _ if of == 1 => String::new(),
             Strategy::Var => format!(", the most of {of} tables I looked at"),
-            Strategy::Information => format!(", and here your answer tells me more than on {} other tables", of - 1),
             Strategy::Random => format!("; I drew this table at random out of {of}"),
+            _ => format!(", and here your answer tells me more than on {} other tables", of - 1),
         };
         format!(
             "Here I could still be {:.1} cm off ({:.0} % sure that it is no more for {:.0} in 100 of the rewards that fit){tables}.",

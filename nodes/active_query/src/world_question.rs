@@ -8,10 +8,10 @@ use apprentice_msgs::msg::{
     EvidenceLog, LessonStatus, PolicyBounds, Posterior, RiskBound, WorldQuery, WorldTrajectory,
 };
 use exchange::{ROBUST_POLICY, World, check_posterior};
-use inquiry::tabular::{Answering, discounted_features, normalised_state_losses, state_losses};
+use inquiry::tabular::{Answering, Over, alternatives, discounted_features, normalised_state_losses, state_losses};
 use inquiry::{
-    Answers, Belief, DrawnOptima, Effort, InquiryError, Losses, Question, Round, Selecting, Selection, select,
-    values_at_risk,
+    Answers, Belief, DrawnOptima, Effort, InquiryError, Losses, Objective, Question, Round, Selecting, Selection,
+    select, values_at_risk,
 };
 use likelihood::preferences::AnswerModel;
 use mdp::random::uniform;
@@ -28,6 +28,10 @@ const MIN_SCORED: usize = 20;
 const MAX_VALUES: usize = 20_000_000;
 /// A loss of the policy that chooses at random divides as no less than this.
 const FLOOR: f64 = 1e-9;
+/// Questions whose answers are followed one step ahead.
+const SHORTLIST: usize = 24;
+/// Policies that the robot may take up after an answer, besides the MAP policy: optimal ones of draws.
+const ALTERNATIVES: usize = 40;
 /// Keeps these random numbers apart from those of the imagined tables.
 const WORLD_STREAM: u64 = 1 << 62;
 
@@ -98,7 +102,7 @@ fn ask(settings: &Settings, inputs: &WorldInputs<'_>) -> Result<Option<WorldQuer
     let ways = Ways { mdp, map: &map, optima: &optima, steps, seed: settings.seed.unsigned_abs(), stream };
     let Some(found) = scoring.choose(&ways, &situations, &rests).map_err(wrong)? else { return Ok(None) };
 
-    let Found { subject, gain, per_second, is_held_out, n_candidates } = found;
+    let Found { subject, gain, per_second, is_held_out, by_entropy, n_candidates } = found;
     let state = [subject.state];
     let at_risk = |losses: Losses| values_at_risk(&losses, &scoring.belief()?, bounds.alpha).map(|of| of[0]);
     let value_at_risk = state_losses(mdp, &optima, &scoring.map, &state).and_then(at_risk).map_err(wrong)?;
@@ -110,6 +114,9 @@ fn ask(settings: &Settings, inputs: &WorldInputs<'_>) -> Result<Option<WorldQuer
         (true, _) => Why::HoldOut,
         (false, Strategy::Random) => Why::Lot,
         (false, Strategy::Information) if gain.is_some() => Why::Telling { n: n_candidates },
+        (false, Strategy::RewardInformation) if gain.is_some() => Why::Informing { n: n_candidates },
+        (false, Strategy::LookAhead) if gain.is_some() => Why::Helping { n: n_candidates },
+        (false, Strategy::Entropy) if by_entropy => Why::Torn { n_states: situations.len() },
         (false, _) => Why::Risk { share, alpha: bounds.alpha, n_states: situations.len() },
     };
     let id = world_query_id(revision, subject.kind, subject.state, &short_hash(settings.seed, posterior));
@@ -159,6 +166,7 @@ struct Found {
     gain: Option<f64>,
     per_second: Option<f64>,
     is_held_out: bool,
+    by_entropy: bool,
     n_candidates: usize,
 }
 
@@ -191,16 +199,30 @@ impl Scoring<'_> {
             }
             strategies.iter().find_map(|by| self.select(&subjects, situations, rests, *by).transpose()).transpose()
         };
-        if settings.strategy == Strategy::Information {
-            let exceeds = inquiry::Strategy::RiskInformation { epsilon: settings.epsilon_loss };
-            return ask(&kinds, &[exceeds, inquiry::Strategy::RewardInformation, risk, inquiry::Strategy::Random]);
+        let (telling, any) = (inquiry::Strategy::RewardInformation, inquiry::Strategy::Random);
+        match settings.strategy {
+            Strategy::Information => {
+                let exceeds = inquiry::Strategy::RiskInformation { epsilon: settings.epsilon_loss };
+                return ask(&kinds, &[exceeds, telling, risk, any]);
+            }
+            Strategy::RewardInformation => return ask(&kinds, &[telling, risk, any]),
+            Strategy::LookAhead => {
+                let objective = Objective::ValueAtRisk { alpha };
+                let ahead = inquiry::Strategy::LookAhead { objective, shortlist: SHORTLIST };
+                return ask(&kinds, &[ahead, telling, risk, any]);
+            }
+            // Where it may not be asked what to do, nothing is known of how torn the rewards are.
+            Strategy::Entropy if kinds.contains(&QuestionKind::Action) => {
+                return ask(&[QuestionKind::Action], &[inquiry::Strategy::ActionEntropy, risk, any]);
+            }
+            Strategy::Var | Strategy::Random | Strategy::Entropy => {}
         }
         // A value at risk is that of a state and says nothing about the kind of question: they take turns.
         for turn in 0..kinds.len() {
             let kind = kinds[(rests.n + turn) % kinds.len()];
             let by: &[_] = match settings.strategy {
-                Strategy::Random => &[inquiry::Strategy::Random],
-                _ => &[risk, inquiry::Strategy::Random],
+                Strategy::Random => &[any],
+                _ => &[risk, any],
             };
             if let Some(found) = ask(&[kind], by)? {
                 return Ok(Some(found));
@@ -237,7 +259,13 @@ impl Scoring<'_> {
                 feasible: !rests.holds(level, subject.kind, subject.state),
             });
         }
-        let round = Round { belief: self.belief()?, losses, questions, alternatives: None };
+        let alternatives = match strategy {
+            inquiry::Strategy::LookAhead { .. } => {
+                Some(alternatives(self.mdp(), self.optima, &self.map, ALTERNATIVES, Over::Starts)?)
+            }
+            _ => None,
+        };
+        let round = Round { belief: self.belief()?, losses, questions, alternatives };
         let selecting = Selecting {
             strategy,
             effort: Some(Effort::default()),
@@ -253,6 +281,7 @@ impl Scoring<'_> {
             gain: (strategy.is_gain()).then_some(chosen.score),
             per_second: chosen.per_second,
             is_held_out: chosen.is_hold_out,
+            by_entropy: strategy == inquiry::Strategy::ActionEntropy,
             n_candidates: round.questions.iter().filter(|question| question.feasible).count(),
         }))
     }

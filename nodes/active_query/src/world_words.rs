@@ -10,6 +10,12 @@ pub(crate) enum Why {
     Risk { share: f64, alpha: f64, n_states: usize },
     /// The answer is expected to tell most for the time it takes.
     Telling { n: usize },
+    /// The rewards that fit disagree most about what to do.
+    Torn { n_states: usize },
+    /// The answer is expected to tell most about the reward, for the time it takes.
+    Informing { n: usize },
+    /// The answer is expected to bring the risk down most, for the time it takes.
+    Helping { n: usize },
     /// By lot, as the strategy has it.
     Lot,
     /// By lot, to hold the answer against what was expected.
@@ -38,6 +44,17 @@ pub(crate) fn why(why: Why) -> String {
         Why::Telling { n } => format!(
             "Of {n} questions that I could ask, your answer to this one should tell me most, for the time it takes you, about \
              whether I may lose too much."
+        ),
+        Why::Torn { n_states } => format!(
+            "Of {n_states} places that I may come to, this is where the rewards that fit disagree most about what to do."
+        ),
+        Why::Informing { n } => format!(
+            "Of {n} questions that I could ask, your answer to this one should tell me most, for the time it takes you, about what \
+             you want."
+        ),
+        Why::Helping { n } => format!(
+            "Of {n} questions that I could ask, your answer to this one should make what I may lose smaller than any other, for the \
+             time it takes you."
         ),
         Why::Lot => "I drew this question at random.".to_owned(),
         Why::HoldOut => {

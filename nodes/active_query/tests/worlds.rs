@@ -150,6 +150,30 @@ fn values_at_risk() -> Vec<f64> {
     losses.into_iter().map(quantile).collect()
 }
 
+/// The state with the largest action entropy, the first of equals: for each action the entropy, over the draws, of its probability
+/// for a person of β = 5, in tenths (Lopes et al. 2009).
+fn most_torn() -> usize {
+    let world = world();
+    let mut solver = Solver::new(&world.mdp);
+    let (n_states, n_actions) = (world.mdp.n_states(), world.mdp.n_actions());
+    let mut bins = vec![[0.0_f64; 10]; n_states * n_actions];
+    for draw in draws().chunks(4) {
+        let w: Vec<f64> = draw.iter().map(|w| f64::from(*w)).collect();
+        let optimum = solver.solve(&w);
+        for state in 0..n_states {
+            let exp = |action| (5.0 * optimum.q(state, action)).exp();
+            let sum: f64 = (0..n_actions).map(exp).sum();
+            for action in 0..n_actions {
+                let bin = ((10.0 * exp(action) / sum).ceil() as usize).clamp(1, 10) - 1;
+                bins[state * n_actions + action][bin] += 0.01;
+            }
+        }
+    }
+    let entropy = |bins: &[f64; 10]| -> f64 { bins.iter().filter(|p| **p > 0.0).map(|p| -p * p.ln()).sum() };
+    let of: Vec<f64> = bins.chunks(n_actions).map(|of| of.iter().map(entropy).sum()).collect();
+    (0..15).filter(|state| *state != 4).fold(0, |best, state| if of[state] > of[best] + 1e-9 { state } else { best })
+}
+
 #[test]
 fn the_state_with_the_largest_value_at_risk_is_asked_about_whatever_the_kind() {
     let at_risk = values_at_risk();
@@ -257,6 +281,19 @@ fn the_most_telling_question_for_its_time_is_asked_and_now_and_then_one_at_rando
     };
     assert_eq!(lots(0.0), 0);
     assert!((26..40).contains(&lots(0.8)), "{}", lots(0.8));
+    // The other ways of choosing: where the optimal actions disagree most, what tells most of the reward, what brings the risk down.
+    let torn = asked(&Settings { strategy: Strategy::Entropy, ..settings() }, &[]);
+    assert!(torn.kind == WorldQuery::ACTION && torn.reason.contains("disagree most"), "{}", torn.reason);
+    assert_eq!(torn.state as usize, most_torn());
+    let no_actions = Settings { strategy: Strategy::Entropy, ..only(QuestionKind::Critique) };
+    assert_eq!(asked(&no_actions, &[]).kind, WorldQuery::CRITIQUE);
+    for (strategy, words) in
+        [(Strategy::RewardInformation, "about what you want"), (Strategy::LookAhead, "what I may lose smaller")]
+    {
+        let query = asked(&Settings { strategy, ..settings() }, &[]);
+        assert!(query.gain > 0.0 && query.gain_per_second > 0.0, "{strategy:?}: {query:?}");
+        assert!(query.reason.contains(words), "{}", query.reason);
+    }
     let random = Settings { strategy: Strategy::Random, ..only(QuestionKind::Action) };
     let states: std::collections::BTreeSet<u32> =
         (1..=30).map(|seed| asked(&Settings { seed, ..random.clone() }, &[]).state).collect();
