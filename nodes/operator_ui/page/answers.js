@@ -1,10 +1,8 @@
 // The list of answers: what was said, what became of it, and the way to take it back or give it again.
 
 import { element, footprint } from "./drawing.js";
+import { ANSWERS } from "./words.js";
 
-const CONFIDENCE = { sure: "sure", fairly: "fairly sure", guess: "a guess" };
-const KINDS = { skip: "Skipped", cant_tell: "Can't tell", stop: "Stopped the lesson", pause: "Paused", start: "Started", finish: "Finished the lesson", new_lesson: "Began a new lesson" };
-const COUNTED = { actions: (n) => `Showed a walk of ${n} steps`, preference: (n) => `Compared ${n} walks`, critique: (n) => `Marked ${n} parts of a walk`, history: (n) => `${n} attempts of a learner` };
 const MARKS = { skip: "↷", cant_tell: "?", stop: "■", pause: "‖", start: "▸", finish: "✓", new_lesson: "✦", placement: "•", actions: "↝", preference: "≷", critique: "✎", history: "↗" };
 
 /** Kinds of answer that can be given once more. */
@@ -17,14 +15,14 @@ export function canUndo(answer) {
 
 /** What became of an answer, in words. */
 export function fate(answer) {
-  if (answer.state === "pending") return "on its way…";
-  if (answer.state === "past") return `revision ${answer.revision}, of an earlier lesson`;
-  if (answer.state === "held") return "waits for the new lesson…";
-  if (answer.state === "refused") return `refused: ${answer.reason}`;
-  if (answer.state === "undone") return answer.undo && answer.undo.revision !== null ? `taken back in revision ${answer.undo.revision}` : "taken back";
-  if (answer.undo && answer.undo.state === "refused") return `revision ${answer.revision}; could not be taken back: ${answer.undo.reason}`;
-  if (answer.undo) return "being taken back…";
-  return `revision ${answer.revision}`;
+  if (answer.state === "pending") return ANSWERS.pending;
+  if (answer.state === "past") return ANSWERS.past(answer.revision);
+  if (answer.state === "held") return ANSWERS.held;
+  if (answer.state === "refused") return ANSWERS.refused(answer.reason);
+  if (answer.state === "undone") return ANSWERS.undone(answer.undo?.revision ?? null);
+  if (answer.undo && answer.undo.state === "refused") return ANSWERS.notUndone(answer.revision, answer.undo.reason);
+  if (answer.undo) return ANSWERS.undoing;
+  return ANSWERS.revision(answer.revision);
 }
 
 /** Draws the list, newest first; `on` has undo(answer), redo(answer) and look(answer or null). */
@@ -55,13 +53,13 @@ function build(answer, on) {
   const words = document.createElement("div");
   words.className = "entry-words";
   const title = document.createElement("strong");
-  title.textContent = on.title?.(answer) ?? (answer.kind === "placement" ? `${answer.scene?.target.label ?? "Target"} at ${(answer.x_m * 100).toFixed(1)} × ${(answer.y_m * 100).toFixed(1)} cm` : COUNTED[answer.kind]?.(answer.n) ?? KINDS[answer.kind]);
+  title.textContent = on.title?.(answer) ?? (answer.kind === "placement" ? ANSWERS.placement(answer.scene?.target.label, answer.x_m, answer.y_m) : ANSWERS.counted[answer.kind]?.(answer.n) ?? ANSWERS.kinds[answer.kind]);
   const detail = document.createElement("span");
-  detail.textContent = [answer.confidence ? CONFIDENCE[answer.confidence] : null, answer.mine ? "you" : answer.source, fate(answer)].filter(Boolean).join(" · ");
+  detail.textContent = [answer.confidence ? ANSWERS.confidence[answer.confidence] : null, answer.mine ? ANSWERS.you : answer.source, fate(answer)].filter(Boolean).join(" · ");
   words.append(title, detail);
   item.append(answer.scene ? thumbnail(answer) : mark(answer.kind), words);
-  if (canUndo(answer)) item.append(button("Take back", `Take back: ${title.textContent}`, () => on.undo(answer)));
-  else if (GIVEN.includes(answer.kind) && answer.state === "undone") item.append(button("Give again", `Give again: ${title.textContent}`, () => on.redo(answer)));
+  if (canUndo(answer)) item.append(button(ANSWERS.takeBack, title.textContent, () => on.undo(answer)));
+  else if (GIVEN.includes(answer.kind) && answer.state === "undone") item.append(button(ANSWERS.giveAgain, title.textContent, () => on.redo(answer)));
   if (answer.scene) {
     item.addEventListener("pointerenter", () => on.look(answer));
     item.addEventListener("pointerleave", () => on.look(null));
@@ -69,11 +67,11 @@ function build(answer, on) {
   return item;
 }
 
-function button(text, label, action) {
+function button(text, what, action) {
   const made = document.createElement("button");
   made.type = "button";
   made.textContent = text;
-  made.setAttribute("aria-label", label);
+  made.setAttribute("aria-label", ANSWERS.button(text, what));
   made.addEventListener("click", action);
   return made;
 }

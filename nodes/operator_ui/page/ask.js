@@ -4,7 +4,7 @@ import { arrow } from "./grid.js";
 import { element } from "./drawing.js";
 import { newId } from "./link.js";
 import { direction, drawWays, moveTravellers } from "./ways.js";
-import { LETTERS, MARKS, WORDS, wayWords } from "./words.js";
+import { ANSWER, LETTERS, MARKS, WORDS, wayWords } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const STEP_MS = 620;
@@ -54,7 +54,7 @@ export class Ask {
       this.play(question?.kind === "comparison" && question.open && !calm.matches && !this.isSpectator());
     }
     const sent = state.answers.find((answer) => answer.id === this.own.sent);
-    if (sent?.state === "refused") Object.assign(this.own, { sent: null, problem: WORDS.refused(sent.reason) });
+    if (sent?.state === "refused") Object.assign(this.own, { sent: null, problem: ANSWER.refused(sent.reason) });
     if (!question?.open) this.play(false);
   }
 
@@ -221,9 +221,9 @@ export class Ask {
 
   renderAcknowledgement() {
     const { answers } = this.state, sent = answers.find((a) => a.id === this.last || a.undo?.id === this.last), undo = sent && sent.id !== this.last;
-    const words = !this.last ? "" : !sent ? (this.link.outbox.has(this.last) ? WORDS.sending : "")
-      : undo ? { accepted: WORDS.takenBack(sent.undo.revision), refused: WORDS.refused(sent.undo.reason) }[sent.undo.state] ?? WORDS.takingBack
-      : { accepted: WORDS.takenIn(sent.revision), refused: WORDS.refused(sent.reason), undone: "" }[sent.state] ?? WORDS.onItsWay;
+    const words = !this.last ? "" : !sent ? (this.link.outbox.has(this.last) ? ANSWER.sending : "")
+      : undo ? { accepted: ANSWER.takenBack(sent.undo.revision), refused: ANSWER.refused(sent.undo.reason) }[sent.undo.state] ?? ANSWER.takingBack
+      : { accepted: ANSWER.takenIn(sent.revision), refused: ANSWER.refused(sent.reason), undone: "" }[sent.state] ?? ANSWER.onItsWay;
     text("ask-acknowledgement", this.own.problem ? "" : words, sent ? (undo ? sent.undo.revision : sent.revision) : null);
     $("ask-acknowledgement").dataset.state = sent ? (undo ? sent.undo.state : sent.state) : "";
   }
@@ -261,7 +261,7 @@ export class Ask {
       button.className = `step ${mark}`;
       button.disabled = !this.isOpen();
       button.setAttribute("aria-label", WORDS.step(world, way, i, mark));
-      button.firstChild.textContent = glyphs[mark] || `${i + 1}`;
+      button.firstChild.dataset.glyph = glyphs[mark] || `${i + 1}`;
       button.lastChild.textContent = world.actions[way.actions[i]];
       button.title = MARKS[mark];
     });

@@ -1,6 +1,7 @@
 // SVG pieces of the table view.
 
 import { boundingRadius, shapeWords } from "./geometry.js";
+import { TABLE } from "./words.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -39,12 +40,12 @@ export function drawBoard(layer, table, { heat, shade, movable }) {
   const bar = [1, 0.5, 0.2, 0.1, 0.05].find((m) => m <= scene.width_m / 4) ?? 0.02, y = y0 + board.h + 16;
   pieces.push(element("path", { class: "scale", d: `M${x0 + 2} ${y - 4}v8m0-4h${bar * k}m0-4v8` }));
   pieces.push(element("text", { class: "small-text", x: x0 + bar * k + 10, y: y + 4 }, `${Math.round(bar * 100)} cm`));
-  pieces.push(element("text", { class: "small-text", x: x0 + board.w / 2, y: y + 4, "text-anchor": "middle" }, "robot's side"));
+  pieces.push(element("text", { class: "small-text", x: x0 + board.w / 2, y: y + 4, "text-anchor": "middle" }, TABLE.side));
   pieces.push(element("text", { class: "small-text", x: x0 + board.w, y: y + 4, "text-anchor": "end" }, `${Math.round(scene.width_m * 100)} × ${Math.round(scene.depth_m * 100)} cm`));
   if (movable && !table.at) {
     pieces.push(element("rect", { class: "tray", x: tray.left, y: tray.top, width: tray.w, height: tray.h, rx: 16 }));
     const r = Math.max(boundingRadius(scene.target) * k, 12), below = table.box.beside;
-    const words = below ? ["drag it", "onto the", "table"] : ["drag it onto the table"];
+    const words = below ? TABLE.tray : [TABLE.trayInOne];
     words.forEach((word, i) => pieces.push(element("text", below
       ? { class: "small-text", x: tray.x, y: tray.y + r + 36 + 14 * i, "text-anchor": "middle" }
       : { class: "small-text", x: tray.x + Math.max(r, 30) + 16, y: tray.y + 12 }, word)));
@@ -52,19 +53,38 @@ export function drawBoard(layer, table, { heat, shade, movable }) {
   layer.replaceChildren(...pieces);
 }
 
+/** Where each object's label stands, below it or above: where it would cover least of the others and of their labels. */
+function labelPlaces(table, scene) {
+  const { k, y0, board } = table.box, taken = [];
+  const about = scene.objects.map((object, i) => {
+    const p = table.px({ x: object.x_m, y: object.y_m }), r = boundingRadius(object) * k, shape = shapeWords(object);
+    const words = object.label.length > shape.length ? object.label : shape, x = sideways(table, p.x, words), half = words.length * 3.9;
+    const lines = [p.y + r + 34 > y0 + board.h ? null : r + 15, p.y - r - 34 < y0 ? null : -r - 20].filter((line) => line !== null);
+    return { i, x, lines: lines.length ? lines : [-r - 20], body: [p.x - r, p.y - r, p.x + r, p.y + r], box: (line) => [p.x + x - half, p.y + line - 12, p.x + x + half, p.y + line + 17] };
+  });
+  const shared = (a, b) => Math.max(0, Math.min(a[2], b[2]) - Math.max(a[0], b[0])) * Math.max(0, Math.min(a[3], b[3]) - Math.max(a[1], b[1]));
+  const covers = (one, line) => [...taken, ...about.filter((other) => other !== one).map((other) => other.body)].reduce((sum, box) => sum + shared(box, one.box(line)), 0);
+  const places = [];
+  // What can stand in one place only goes first.
+  for (const one of about.toSorted((a, b) => a.lines.length - b.lines.length)) {
+    const line = one.lines.reduce((best, other) => (covers(one, other) < covers(one, best) ? other : best));
+    taken.push(one.box(line));
+    places[one.i] = { x: one.x, line };
+  }
+  return places;
+}
+
 /** The things on the table, each with its name and shape. */
 export function drawObjects(layer, table, scene, onHeat) {
-  const { k, y0, board } = table.box;
+  const { k } = table.box, lines = labelPlaces(table, scene);
   layer.classList.toggle("on-heat", onHeat);
   layer.replaceChildren(...scene.objects.map((object, i) => {
     const p = table.px({ x: object.x_m, y: object.y_m }), r = boundingRadius(object) * k;
     const group = element("g", { class: `object hue-${i % 6}`, transform: `translate(${p.x.toFixed(2)} ${p.y.toFixed(2)})`, "data-id": object.id });
-    group.append(element("title", {}, `${object.label}: ${shapeWords(object)}${object.supports ? ", things may stand on it" : ""}`), footprint(object, k, "body"));
+    group.append(element("title", {}, TABLE.object(object, shapeWords(object))), footprint(object, k, "body"));
     if (object.shape !== "box") group.append(element("circle", { class: "rim", r: Math.max(0, (object.size_x_m / 2) * k * 0.72) }));
     if (object.supports) group.append(element("circle", { class: "supports", r: r + 4 }));
-    const above = p.y + r + 34 > y0 + board.h;
-    const line = above ? -r - 20 : r + 15;
-    const x = sideways(table, p.x, object.label.length > shapeWords(object).length ? object.label : shapeWords(object));
+    const { x, line } = lines[i];
     group.append(
       element("text", { class: "label", x, y: line, "text-anchor": "middle" }, object.label),
       element("text", { class: "sub-label", x, y: line + 13, "text-anchor": "middle" }, shapeWords(object)),
@@ -100,8 +120,8 @@ export function drawGuess(layer, table, scene, plan, marks, own) {
       pieces.push(element("line", { class: "apart", x1: a.x, y1: a.y, x2: b.x, y2: b.y }));
     }
     const below = robust && apart > 0.004 ? robust.y_m > map.y_m : own ? own.y > map.y_m : false;
-    pieces.push(ghost({ x: map.x_m, y: map.y_m }, "ghost", table.view.guessLabel ?? "robot's guess", below));
-    if (robust && apart > 0.004) pieces.push(ghost({ x: robust.x_m, y: robust.y_m }, "ghost robust", apart > 0.03 ? "cautious guess" : "", robust.y_m <= map.y_m));
+    pieces.push(ghost({ x: map.x_m, y: map.y_m }, "ghost", table.view.guessLabel ?? TABLE.guess, below));
+    if (robust && apart > 0.004) pieces.push(ghost({ x: robust.x_m, y: robust.y_m }, "ghost robust", apart > 0.03 ? TABLE.cautious : "", robust.y_m <= map.y_m));
   }
   for (const mark of marks) pieces.push(ghost({ x: mark.x, y: mark.y }, "ghost mark", mark.label, true));
   layer.replaceChildren(...pieces);

@@ -2,6 +2,7 @@
 
 import { element } from "./drawing.js";
 import { number, percent } from "./risk.js";
+import { CAUTION } from "./words.js";
 
 const M = { l: 62, r: 16, t: 14, b: 36 };
 
@@ -12,8 +13,8 @@ export function drawFrontier(svg, frontier, chosen, preview) {
   const known = (p) => p && p.conditional_value_at_risk !== null && p.expected_return !== null;
   const points = (frontier?.points ?? []).filter(known);
   if (!points.length) {
-    svg.replaceChildren(element("text", { class: "axis", x: W / 2, y: H / 2, "text-anchor": "middle" }, frontier?.reason ? "no frontier yet" : "waiting for the frontier"));
-    svg.setAttribute("aria-label", frontier?.reason ?? "There is no frontier yet");
+    svg.replaceChildren(element("text", { class: "axis", x: W / 2, y: H / 2, "text-anchor": "middle" }, frontier?.reason ? CAUTION.frontierNone : CAUTION.frontierWaits));
+    svg.setAttribute("aria-label", frontier?.reason ?? CAUTION.noFrontier);
     return;
   }
   const all = known(chosen) ? [...points, chosen] : points;
@@ -25,22 +26,21 @@ export function drawFrontier(svg, frontier, chosen, preview) {
   const across = ticks(x0, x1, 4), up = ticks(y0, y1, 3);
   for (const v of up) pieces.push(element("path", { class: "grid", d: `M${M.l} ${y(v).toFixed(1)}H${(W - M.r).toFixed(1)}` }), element("text", { class: "axis", x: M.l - 7, y: y(v) + 4, "text-anchor": "end" }, label(v, up)));
   for (const v of across) pieces.push(element("path", { class: "grid", d: `M${x(v).toFixed(1)} ${M.t}V${(H - M.b).toFixed(1)}` }), element("text", { class: "axis", x: x(v), y: H - M.b + 15, "text-anchor": "middle" }, label(v, across)));
-  const tail = frontier.alpha === null ? "the worst case" : `the worst ${percent(1 - frontier.alpha)}`;
-  const worst = { evd: `average in ${tail} (0: nothing lost)`, regret: `average in ${tail}, above what was shown` }[frontier.objective] ?? `average return in ${tail}`;
-  pieces.push(element("text", { class: "axis", x: (M.l + W - M.r) / 2, y: H - 4, "text-anchor": "middle" }, `${worst} →`));
-  pieces.push(element("text", { class: "axis", x: 11, y: M.t + (H - M.t - M.b) / 2, "text-anchor": "middle", transform: `rotate(-90 11 ${M.t + (H - M.t - M.b) / 2})` }, "average return →"));
+  const tail = CAUTION.tail(frontier.alpha === null ? null : percent(1 - frontier.alpha));
+  pieces.push(element("text", { class: "axis", x: (M.l + W - M.r) / 2, y: H - 4, "text-anchor": "middle" }, CAUTION.worstAxis(frontier.objective, tail)));
+  pieces.push(element("text", { class: "axis", x: 11, y: M.t + (H - M.t - M.b) / 2, "text-anchor": "middle", transform: `rotate(-90 11 ${M.t + (H - M.t - M.b) / 2})` }, CAUTION.averageAxis));
   pieces.push(element("path", { class: "frontier-line", d: points.map((p, i) => `${i ? "L" : "M"}${x(p.conditional_value_at_risk).toFixed(1)} ${y(p.expected_return).toFixed(1)}`).join("") }));
   for (const p of points) {
     const dot = element("circle", { class: `frontier-dot${p.optimal ? "" : " unsure"}`, ...at(p), r: 3.2 });
-    dot.append(element("title", {}, `balance ${p.lambda.toFixed(2)}: average ${number(p.expected_return)}, worst case ${number(p.conditional_value_at_risk)}`));
+    dot.append(element("title", {}, CAUTION.balance(p.lambda.toFixed(2), number(p.expected_return), number(p.conditional_value_at_risk))));
     pieces.push(dot);
   }
   if (known(chosen)) pieces.push(element("circle", { class: "frontier-chosen", ...at(chosen), r: 6.5 }));
   const shown = frontier.points[preview];
   if (known(shown)) pieces.push(element("circle", { class: "frontier-preview", ...at(shown), r: 10 }));
   svg.replaceChildren(...pieces);
-  const [first, last] = [points[0], points.at(-1)];
-  svg.setAttribute("aria-label", `From the worst case to the average: average return ${number(first.expected_return)} to ${number(last.expected_return)}, worst case ${number(first.conditional_value_at_risk)} to ${number(last.conditional_value_at_risk)}`);
+  const ends = [points[0], points.at(-1)];
+  svg.setAttribute("aria-label", CAUTION.frontier(ends.map((p) => number(p.expected_return)), ends.map((p) => number(p.conditional_value_at_risk))));
 }
 
 /** Whether all balances come to the same. */

@@ -1,5 +1,7 @@
 // Where things are and where the target cannot be; the same rules as the crate `scene`. Metres, x right, y away from the robot.
 
+import { TABLE } from "./words.js";
+
 /** Radius of the smallest circle about the centre that holds an object's footprint. */
 export function boundingRadius(object) {
   return object.shape === "box" ? Math.hypot(object.size_x_m, object.size_y_m) / 2 : object.size_x_m / 2;
@@ -20,9 +22,9 @@ export function distanceTo(object, at) {
 export function obstruction(scene, at) {
   const r = boundingRadius(scene.target);
   const inside = (v, extent) => v >= r && v <= extent - r;
-  if (!inside(at.x, scene.width_m) || !inside(at.y, scene.depth_m)) return "it would stick out over the table's edge";
+  if (!inside(at.x, scene.width_m) || !inside(at.y, scene.depth_m)) return TABLE.overEdge;
   const met = scene.objects.find((object) => !object.supports && distanceTo(object, at) < r);
-  return met ? `it would touch the ${met.label}` : null;
+  return met ? TABLE.touches(met.label) : null;
 }
 
 /** The free spot nearest to a wish, searched on rings around it; null when there is none. */
@@ -49,8 +51,7 @@ export function isUnreachable(plan, scene, at) {
 
 /** What an object looks like from above, in words. */
 export function shapeWords(object) {
-  const size = object.shape === "box" ? `box ${cm0(object.size_x_m)} × ${cm0(object.size_y_m)}` : `round ${cm0(object.size_x_m)}`;
-  return `${size} cm`;
+  return TABLE.shape(object, [cm0(object.size_x_m), cm0(object.size_y_m)]);
 }
 
 const cm0 = (m) => (m * 100).toFixed(m * 100 < 10 && (m * 1000) % 10 >= 0.5 ? 1 : 0);

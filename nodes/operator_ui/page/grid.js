@@ -2,9 +2,9 @@
 
 import { element } from "./drawing.js";
 import { percent } from "./risk.js";
+import { WORLD } from "./words.js";
 
 const LEAST = 0.02;
-const sentence = (words) => words[0].toUpperCase() + words.slice(1);
 
 /** An arrow from a little behind a point along a direction, `length` pixels and `width` thick. */
 export function arrow(className, px, py, [dx, dy], length, width = 2.2) {
@@ -45,12 +45,12 @@ export function drawGrid(svg, world, table, visits, looked) {
     pieces.push(cell);
   }
   svg.replaceChildren(...pieces);
-  svg.setAttribute("aria-label", `A grid of ${rows} rows and ${columns} columns. ${way(world, table)}`);
+  svg.setAttribute("aria-label", WORLD.grid(rows, columns, way(world, table)));
 }
 
 /** The likeliest way from each of the first starts, in words. */
 function way(world, table) {
-  if (!table.length) return "There is no policy yet.";
+  if (!table.length) return WORLD.noPolicy;
   const { columns, moves } = world.picture, n = world.actions.length, rows = world.picture.rows;
   const from = (start) => {
     const words = [];
@@ -62,22 +62,16 @@ function way(world, table) {
       if (r < 0 || c < 0 || r >= rows || c >= columns || (down === 0 && right === 0)) break;
       s = r * columns + c;
     }
-    return `From row ${Math.floor(start / columns) + 1}, column ${(start % columns) + 1}: ${words.join(", ")}.`;
+    return WORLD.from(Math.floor(start / columns) + 1, (start % columns) + 1, words);
   };
   return world.starts.slice(0, 4).map(from).join(" ");
-}
-
-/** Which cell, in words. */
-export function cellPlace(world, s) {
-  const { columns } = world.picture, feature = world.cells[s];
-  return `row ${Math.floor(s / columns) + 1}, column ${(s % columns) + 1}${feature === null ? "" : `, ${world.features[feature]}`}`;
 }
 
 /** What is known of a cell, in words. */
 export function cellWords(world, table, s) {
   const n = world.actions.length;
-  const does = world.terminals.includes(s) ? "it ends here" : table.length ? actionWords(world, table, s, n) : "no policy yet";
-  return `${sentence(cellPlace(world, s))}: ${does}`;
+  const does = world.terminals.includes(s) ? WORLD.ends : table.length ? actionWords(world, table, s, n) : null;
+  return WORLD.state(world, s, does);
 }
 
 /** "right 80 %, up 20 %". */

@@ -10,11 +10,12 @@ import { drawReport } from "./report.js";
 import { Session, lessonStart } from "./session.js";
 import { TableView } from "./table.js";
 import { drawTrend } from "./trend.js";
-import { CARRY } from "./words.js";
+import { ANSWER, ANSWERS, BAR, CARRY, GAUGE, LINK, QUESTION, STATES, TABLE, fillWords } from "./words.js";
 import { WorldLesson } from "./world.js";
 
 const $ = (id) => document.getElementById(id);
 const state = { question: null, world_question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [], recordings: [], arm: null, arm_pose: null, arm_motion: null };
+fillWords();
 const own = { question: undefined, at: null, revealed: false, heat: false, sent: null, sentFor: null, correcting: false, look: null, problem: "" };
 
 const table = new TableView($("table"), { moved, submitted: submit, hovered });
@@ -52,7 +53,7 @@ function sections(changed) {
   Object.assign(state, changed);
   world.settle(state);
   const sent = state.answers.find((answer) => answer.id === own.sent);
-  if (sent?.state === "refused" && own.sentFor !== null) Object.assign(own, { sentFor: null, problem: `Refused: ${sent.reason}` });
+  if (sent?.state === "refused" && own.sentFor !== null) Object.assign(own, { sentFor: null, problem: ANSWER.refused(sent.reason) });
   if (own.correcting && own.sentFor === "" && sent?.state === "accepted") Object.assign(own, { correcting: false, sentFor: null, at: null, revealed: false });
   const key = state.question?.open ? state.question.id : null;
   if (key !== null && own.question !== key) {
@@ -64,7 +65,7 @@ function sections(changed) {
 }
 
 function status(word) {
-  if (word === "expired" && own.status !== word) notice("This page's address is no longer valid: open the one that the operator page printed when it started.");
+  if (word === "expired" && own.status !== word) notice(LINK.old);
   own.status = word;
   renderConnection();
 }
@@ -81,7 +82,7 @@ function notice(text) {
   const box = document.createElement("div"), words = document.createElement("span"), close = document.createElement("button");
   box.className = "notice";
   words.textContent = text;
-  close.textContent = "Dismiss";
+  close.textContent = BAR.dismiss;
   close.addEventListener("click", () => box.remove());
   box.append(words, close);
   while ($("notices").children.length > 2) $("notices").firstChild.remove();
@@ -151,7 +152,7 @@ for (const id of ["undo", "ask-undo"]) $(id).addEventListener("click", () => { c
 for (const id of ["redo", "ask-redo"]) $(id).addEventListener("click", () => { const answer = lastUndone(); if (answer) redo(answer); });
 for (const id of ["stop", "ask-stop"]) $(id).addEventListener("click", () => { $("stop-dialog").returnValue = ""; $("stop-dialog").showModal(); });
 $("stop-dialog").addEventListener("close", () => { if ($("stop-dialog").returnValue === "stop") respond("stop", $("stop-reason").value); $("stop-reason").value = ""; });
-$("report-open").addEventListener("click", () => { session.close(); drawReport($("report"), state, new Date()); $("report-dialog").showModal(); $("report-dialog").scrollTop = 0; });
+$("report-open").addEventListener("click", () => { session.close(); drawReport($("report"), state, new Date()); $("report-dialog").showModal(); $("report-dialog").scrollTop = 0; reachable($("report").querySelectorAll("section")); });
 $("report-print").addEventListener("click", () => print());
 $("report-close").addEventListener("click", () => $("report-dialog").close());
 $("report-dialog").addEventListener("close", () => $("report").replaceChildren());
@@ -162,6 +163,9 @@ $("theme").addEventListener("click", () => setTheme(isDark() ? "light" : "dark")
 dark.addEventListener("change", render);
 for (const kind of ["keydown", "pointerdown"]) addEventListener(kind, () => { document.documentElement.dataset.input = kind; }, true);
 new ResizeObserver(renderProgress).observe($("plot"));
+
+/** What scrolls sideways can be scrolled by keyboard too. */
+function reachable(parts) { for (const part of parts) if (part.scrollWidth > part.clientWidth) part.tabIndex = 0; }
 
 function startCorrecting() {
   Object.assign(own, { correcting: true, at: null, revealed: false, sentFor: null });
@@ -193,39 +197,38 @@ function render() {
   renderProgress();
   drawAnswers($("answers"), state.answers, { undo, redo, look });
   const active = state.answers.filter((a) => a.state === "accepted").length;
-  text("history-count", state.answers.length ? `${active} in force of ${state.answers.length}` : "");
+  text("history-count", state.answers.length ? ANSWERS.count(active, state.answers.length) : "");
   $("no-answers").hidden = state.answers.length > 0;
   $("answers").hidden = state.answers.length === 0;
   renderConnection();
 }
 
 const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
-const STATES = { waiting: "Waiting for the lesson", asking: "Learning", taught: "Taught", stopped: "Stopped", gave_up: "Gave up", paused: "Paused", finished: "Finished" };
 
 function renderLesson() {
-  const { question, lesson, bounds, posterior } = state, name = scene()?.target.label ?? "it", word = lessonState();
+  const { question, lesson, bounds, posterior } = state, name = scene()?.target.label ?? QUESTION.it, word = lessonState();
   text("state-text", STATES[word]);
   $("state").dataset.value = word;
   text("revision", posterior ? String(posterior.revision) : "–", posterior?.revision ?? null);
   const asking = showsQuestion();
-  text("question-number", own.correcting ? "Your correction" : asking ? `Question ${lesson?.questions_asked || ""}` : "The lesson");
+  text("question-number", own.correcting ? QUESTION.correction : asking ? QUESTION.number(lesson?.questions_asked) : QUESTION.lesson);
   text("question-id", asking ? question.id : "", asking ? question.id : "");
   const [, asked, why] = asking ? question.reason.match(/^([^?]{1,200}\?)\s+(.+)$/s) ?? [] : [];
-  text("question-title", own.correcting || asking ? asked ?? `Where does the ${name} belong?` : { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking.", paused: "The lesson is paused.", finished: "The lesson is finished." }[word] ?? "One moment…");
-  text("question-reason", own.correcting ? `Show where the ${name} belongs on the table as it is.` : asking ? why ?? question.reason : sentence(lesson?.reason) || "The page is waiting for the robot's first question.");
+  text("question-title", own.correcting || asking ? asked ?? QUESTION.where(name) : QUESTION.titles[word] ?? QUESTION.moment);
+  text("question-reason", own.correcting ? QUESTION.correct(name) : asking ? why ?? question.reason : sentence(lesson?.reason) || QUESTION.waiting);
   const epsilon = lesson?.epsilon_m ?? question?.epsilon_m ?? null, bound = bounds?.bound_m ?? null;
-  text("bound", bound === null ? (bounds ? "no bound yet" : "–") : cm(bound), bound);
+  text("bound", bound === null ? (bounds ? GAUGE.none : "–") : cm(bound), bound);
   $("bound").dataset.revision = bounds?.revision ?? "";
   text("epsilon", cm(epsilon), epsilon);
   const here = asking ? question.bound_m : null;
   text("question-bound", cm(here), here);
   $("here").hidden = here === null;
-  document.title = `${asking || state.world_question?.open ? "A question" : STATES[word]} · apprentice`;
+  document.title = BAR.tab(asking || state.world_question?.open ? BAR.question : STATES[word]);
   const full = Math.max(bound ?? 0, (epsilon ?? 0.1) * 2) * 1.05;
   $("gauge-fill").style.width = `${bound === null ? 100 : Math.min(100, (100 * bound) / full)}%`;
   $("gauge").dataset.state = bound === null ? "none" : epsilon !== null && bound < epsilon ? "below" : "above";
   $("gauge-goal").style.left = `${(100 * (epsilon ?? 0)) / full}%`;
-  $("gauge").setAttribute("aria-label", `At worst ${cm(bound)} off, goal ${cm(epsilon)}`);
+  $("gauge").setAttribute("aria-label", GAUGE.label(cm(bound), cm(epsilon)));
   text("claim", bounds?.reason ?? "");
 }
 
@@ -242,15 +245,15 @@ function renderTable() {
     reveal: reveal(),
     movable: !own.look && (isTeaching() || (showsQuestion() && own.at !== null && !isAsking())),
     locked: !isTeaching(),
-    marks: own.look ? [{ x: own.look.x_m, y: own.look.y_m, label: `revision ${own.look.revision ?? "…"}` }] : [],
-    guessLabel: showsQuestion() || own.correcting ? "robot's guess" : "the robot's place",
+    marks: own.look ? [{ x: own.look.x_m, y: own.look.y_m, label: TABLE.mark(own.look.revision) }] : [],
+    guessLabel: showsQuestion() || own.correcting ? TABLE.guess : TABLE.place,
     dark: isDark(),
   });
   $("heat").disabled = !reveal() || !plan()?.reward_map.length;
   renderLegend();
   const thinking = !own.look && lessonState() === "asking" && !isAsking();
   $("veil").hidden = !(thinking || !shown);
-  text("veil-text", !shown ? "Waiting for a table" : "Thinking about the next question…");
+  text("veil-text", !shown ? TABLE.waiting : QUESTION.thinking);
 }
 
 function renderLegend() {
@@ -267,26 +270,25 @@ function renderReadout() {
   const shown = scene(), at = (isTeaching() || showsQuestion() ? own.at : null) ?? own.hover, map = plan();
 
   if (carry.isSolid()) return text("readout", CARRY.hint);
-  if (!shown || !at || own.look) return text("readout", own.look ? `An earlier answer: ${fate(own.look)}` : "Brown hatching: occupied. Grey hatching: out of the arm's reach.");
-  const where = `${(at.x * 100).toFixed(1)} cm from the left, ${(at.y * 100).toFixed(1)} cm from the robot's edge`;
+  if (!shown || !at || own.look) return text("readout", own.look ? ANSWERS.earlier(fate(own.look)) : TABLE.key);
   const blocked = obstruction(shown, at), far = isUnreachable(map, shown, at);
-  text("readout", `${where}${blocked ? ` · ${blocked}` : far ? " · out of the arm's reach" : ""}`);
+  text("readout", TABLE.readout(at, blocked, far));
 }
 
 function renderAnswer() {
   renderReadout();
-  const shown = scene(), map = plan(), name = shown?.target.label ?? "it", teaching = isTeaching(), asking = isAsking();
+  const shown = scene(), map = plan(), name = shown?.target.label ?? QUESTION.it, teaching = isTeaching(), asking = isAsking();
   const blocked = teaching && own.at && shown ? obstruction(shown, own.at) : null;
   const submittable = teaching && own.at && !blocked, idle = !teaching && !showsQuestion() && Boolean(state.scene) && lessonState() !== "waiting" && lessonState() !== "asking";
   $("submit").disabled = !(submittable || idle);
-  text("submit-text", idle ? "Show another placement" : `Place the ${name} here`);
+  text("submit-text", idle ? TABLE.another : TABLE.submit(name));
   $("submit").querySelector("kbd").hidden = idle;
   const far = submittable && isUnreachable(map, shown, own.at);
   text("hint", own.problem ? own.problem
-    : blocked ? `Not there: ${blocked}.`
-    : far ? "The arm does not reach this spot, but you may say so."
-    : teaching && !own.at ? "Drag it there, or use the arrow keys."
-    : submittable ? "Arrow keys: 5 mm, with Shift 2 cm." : "");
+    : blocked ? TABLE.notThere(blocked)
+    : far ? TABLE.far
+    : teaching && !own.at ? TABLE.drag
+    : submittable ? TABLE.keys : "");
   $("hint").dataset.tone = own.problem || blocked ? "bad" : far ? "warn" : "";
   for (const id of ["skip", "cant-tell"]) $(id).disabled = !asking;
   $("stop").disabled = lessonState() === "waiting" || lessonState() === "stopped";
@@ -297,9 +299,9 @@ function renderAnswer() {
   renderGuess(map, shown, name);
   const sent = state.answers.find((a) => a.id === own.sent || a.undo?.id === own.sent);
   const isUndo = sent && sent.id !== own.sent;
-  const words = !own.sent ? "" : !sent ? (link.outbox.has(own.sent) ? "Sending…" : "")
-    : isUndo ? { accepted: `Taken back in revision ${sent.undo.revision}`, refused: `Could not be taken back: ${sent.undo.reason}` }[sent.undo.state] ?? "Taking it back…"
-    : { accepted: `Taken in as revision ${sent.revision}`, refused: `Refused: ${sent.reason}`, undone: "" }[sent.state] ?? "On its way to the robot…";
+  const words = !own.sent ? "" : !sent ? (link.outbox.has(own.sent) ? ANSWER.sending : "")
+    : isUndo ? { accepted: ANSWER.takenBack(sent.undo.revision), refused: ANSWER.notTakenBack(sent.undo.reason) }[sent.undo.state] ?? ANSWER.takingBack
+    : { accepted: ANSWER.takenIn(sent.revision), refused: ANSWER.refused(sent.reason), undone: "" }[sent.state] ?? ANSWER.onItsWay;
   text("acknowledgement", own.problem ? "" : words, sent ? (isUndo ? sent.undo.revision : sent.revision) : null);
   $("acknowledgement").dataset.state = sent ? (isUndo ? sent.undo.state : sent.state) : own.sent ? "sending" : "";
 }
@@ -308,14 +310,14 @@ function renderGuess(map, shown, name) {
   const guess = map?.map_placement;
   let words = "", distance = null;
   if (showsQuestion() || own.correcting) {
-    if (!own.revealed) words = `The robot's guess stays hidden until you place the ${name}.`;
+    if (!own.revealed) words = TABLE.hidden(name);
     else if (guess && own.at) {
       distance = Math.hypot(guess.x_m - own.at.x, guess.y_m - own.at.y);
-      words = `The robot guessed ${cm(distance)} from yours.`;
-    } else if (map && !guess) words = `The robot has no guess: ${map.reason}`;
-    else if (!map) words = "The robot's guess has not arrived.";
+      words = TABLE.apart(cm(distance));
+    } else if (map && !guess) words = TABLE.noGuess(map.reason);
+    else if (!map) words = TABLE.notArrived;
   } else if (map && reveal()) {
-    words = guess ? `On this table the robot would put the ${name} ${(guess.x_m * 100).toFixed(1)} cm from the left, ${(guess.y_m * 100).toFixed(1)} cm from its edge${map.outcome === "planned" ? `, in a motion of ${map.motion_s.toFixed(1)} s` : ""}.` : map.reason;
+    words = guess ? TABLE.wouldPut(name, guess, map.outcome === "planned" ? map.motion_s : null) : map.reason;
     if (guess && map.outcome !== "planned") words += ` ${map.reason}`;
   }
   text("guess-distance", words, distance);
@@ -337,21 +339,21 @@ function renderConnection() {
   const gone = state.nodes.filter((n) => n.state !== "alive"), open = own.status === "open";
   const value = !open ? own.status ?? "connecting" : gone.some((n) => n.state === "gone") ? "gone" : gone.length ? "late" : "open";
   $("connection").dataset.value = value;
-  text("connection-text", !open ? { lost: "Reconnecting…", expired: "Open the new address" }[own.status] ?? "Connecting…" : gone.length ? `${gone[0].name} ${gone[0].state}` : "Connected");
+  text("connection-text", !open ? LINK[own.status] ?? LINK.connecting : gone.length ? LINK.node(gone[0].name, gone[0].state) : LINK.open);
   document.body.classList.toggle("offline", !open && own.status !== undefined);
   const list = $("node-list"), key = JSON.stringify([open, state.nodes]);
   if (list.dataset.key === key) return;
   list.dataset.key = key;
-  list.replaceChildren(...[{ name: "this page", state: open ? "alive" : "gone" }, ...state.nodes].map((n) => {
+  list.replaceChildren(...[{ name: LINK.page, state: open ? "alive" : "gone" }, ...state.nodes].map((n) => {
     const item = document.createElement("li"), name = document.createElement("span"), word = document.createElement("b");
     item.dataset.node = n.name;
     item.dataset.value = n.state;
     name.textContent = n.name;
-    word.textContent = n.restarts ? `${n.state}, restarted ${n.restarts}×` : n.state;
+    word.textContent = LINK.state(n.state, n.restarts);
     item.append(document.createElement("i"), name, word);
     return item;
   }));
-  text("node-hint", state.nodes.length ? "Late: silent for 2 s. Gone: silent for 5 s." : "No heartbeat has been heard yet.");
+  text("node-hint", state.nodes.length ? LINK.hint : LINK.silent);
 }
 
 function isDark() {

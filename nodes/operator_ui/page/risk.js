@@ -1,5 +1,7 @@
 // The risk of a policy in words.
 
+import { RISK } from "./words.js";
+
 /** A return or a loss, short; a minus sign, not a hyphen. */
 export function number(v, least = 0) {
   if (v === null || v === undefined) return "–";
@@ -15,17 +17,16 @@ export const percent = (share) => (share === null || share === undefined ? "–"
 export function worstCase(of, objective, alpha) {
   const cvar = of.conditional_value_at_risk, share = alpha === null ? "–" : percent(1 - alpha);
   if (cvar === null) return "";
-  const start = `In the worst ${share} of what the person may mean`;
-  if (objective === "evd") return `${start}, it loses ${number(-cvar)} on average against the best that can be done.`;
-  if (objective === "regret") return cvar >= 0 ? `${start}, it returns ${number(cvar)} more on average than what was shown.` : `${start}, it falls ${number(-cvar)} short of what was shown on average.`;
-  return `${start}, the return is ${number(cvar)} on average.`;
+  if (objective === "evd") return RISK.worst.evd(share, number(-cvar));
+  if (objective === "regret") return cvar >= 0 ? RISK.worst.above(share, number(cvar)) : RISK.worst.below(share, number(-cvar));
+  return RISK.worst.robust(share, number(cvar));
 }
 
 /** What a policy brings as a rule. */
 export function asARule(of, objective, alpha) {
   const rest = percent(alpha), least = of.value_at_risk;
   if (least === null || alpha === null) return "";
-  if (objective === "evd") return `In the other ${rest} it loses at most ${number(-least)}.`;
-  if (objective === "regret") return least >= 0 ? `In the other ${rest} it returns at least ${number(least)} more.` : `In the other ${rest} it falls at most ${number(-least)} short.`;
-  return `In the other ${rest} it is at least ${number(least)}.`;
+  if (objective === "evd") return RISK.rule.evd(rest, number(-least));
+  if (objective === "regret") return least >= 0 ? RISK.rule.above(rest, number(least)) : RISK.rule.below(rest, number(-least));
+  return RISK.rule.robust(rest, number(least));
 }

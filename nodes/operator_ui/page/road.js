@@ -3,18 +3,13 @@
 
 import { element } from "./drawing.js";
 import { actionWords, arrow } from "./grid.js";
+import { WORLD, laneNames } from "./words.js";
 
 const LEAST = 0.02;
 /** How to read the picture. */
-export const ROAD_KEY = "Column: the robot's lane. Row: how near the traffic is, far ahead at the top. Shaded: where the robot comes.";
+export const ROAD_KEY = WORLD.roadKey;
 
 const stateOf = ({ lanes, places }, lane, traffic, place) => (lane * (lanes - 2) + traffic) * places + place;
-
-/** Names of the lanes from the left, the roadside outermost. */
-function laneNames(lanes) {
-  const road = lanes - 2, named = { 1: ["the lane"], 2: ["left lane", "right lane"], 3: ["left lane", "centre lane", "right lane"] }[road];
-  return ["left roadside", ...(named ?? Array.from({ length: road }, (_, i) => `lane ${i + 1}`)), "right roadside"];
-}
 
 /** Where the cells of a road lie in a box: one panel a lane of the traffic, side by side where there is room. */
 export function roadFrame(world, box) {
@@ -36,7 +31,7 @@ export function drawRoad(svg, world, table, visits, looked) {
   const most = Math.max(1e-12, ...visits), names = laneNames(lanes), pieces = [];
   for (let t = 0; t < panels; t++) {
     const [x0, y0] = corner(t);
-    pieces.push(element("text", { class: "road-title", x: x0 + panel.w / 2, y: y0 - 11, "text-anchor": "middle" }, `traffic in the ${names[t + 1]}`));
+    pieces.push(element("text", { class: "road-title", x: x0 + panel.w / 2, y: y0 - 11, "text-anchor": "middle" }, WORLD.traffic(names[t + 1])));
     for (let lane = 0; lane < lanes; lane++) pieces.push(element("rect", { class: lane === 0 || lane === lanes - 1 ? "verge" : "asphalt", x: x0 + lane * k, y: y0, width: k, height: panel.h }));
     for (let lane = 2; lane < lanes - 1; lane++) pieces.push(element("path", { class: "lane-mark", d: `M${(x0 + lane * k).toFixed(1)} ${y0.toFixed(1)}v${panel.h.toFixed(1)}` }));
     for (let lane = 0; lane < lanes; lane++) for (let place = 0; place < places; place++) {
@@ -56,19 +51,10 @@ export function drawRoad(svg, world, table, visits, looked) {
     }
   }
   svg.replaceChildren(...pieces);
-  svg.setAttribute("aria-label", `A road of ${panels} lanes with the roadside left and right. Each panel is for traffic in one lane. ${table.length ? `At the start: ${world.starts.map((s) => `${roadWords(world, table, s)}`).join("; ")}.` : "There is no policy yet."}`);
-}
-
-/** Which state, in words. */
-export function roadPlace(world, s) {
-  const { lanes, places } = world.picture, names = laneNames(lanes);
-  const place = s % places, traffic = Math.floor(s / places) % (lanes - 2), lane = Math.floor(s / (places * (lanes - 2)));
-  const where = place === 0 ? "far ahead" : place === places - 1 ? "behind" : `${place} of ${places - 1} closer`;
-  return `in the ${names[lane]}, traffic ${where} in the ${names[traffic + 1]}`;
+  svg.setAttribute("aria-label", WORLD.road(panels, table.length ? world.starts.map((s) => roadWords(world, table, s)) : null));
 }
 
 /** What is known of a state, in words. */
 export function roadWords(world, table, s) {
-  const words = roadPlace(world, s);
-  return `${words[0].toUpperCase()}${words.slice(1)}: ${table.length ? actionWords(world, table, s, world.actions.length) : "no policy yet"}`;
+  return WORLD.state(world, s, table.length ? actionWords(world, table, s, world.actions.length) : null);
 }

@@ -3,6 +3,7 @@
 import { boundingRadius, isUnreachable, nearestFree, obstruction, shapeWords } from "./geometry.js";
 import { rewardPicture, shadePicture } from "./maps.js";
 import { drawBoard, drawGuess, drawObjects, drawSpots, element, footprint, sideways } from "./drawing.js";
+import { TABLE } from "./words.js";
 
 const STEP_M = 0.005;
 const BIG_STEP_M = 0.02;
@@ -111,8 +112,8 @@ export class TableView {
     const isNear = (spot) => Math.hypot(spot.x_m - this.at.x, spot.y_m - this.at.y) * this.box.k < 2 * r + 24;
     this.target.classList.toggle("close", Boolean(this.at && guess && (isNear(guess) || isNear(robust))));
     this.target.setAttribute("aria-label", this.at
-      ? `${target.label}, ${shapeWords(target)}, ${(this.at.x * 100).toFixed(1)} centimetres from the left and ${(this.at.y * 100).toFixed(1)} from the robot's edge${blocked ? `; not possible: ${blocked}` : ""}`
-      : `${target.label}, ${shapeWords(target)}, beside the table. Arrow keys put it on the table and move it by 5 millimetres, with Shift by 2 centimetres; Enter answers.`);
+      ? TABLE.stands(target.label, shapeWords(target), this.at, blocked)
+      : TABLE.waits(target.label, shapeWords(target)));
     this.target.dataset.x = this.at ? this.at.x : "";
     this.target.dataset.y = this.at ? this.at.y : "";
     drawGuess(this.layers.guess, this, scene, this.view.reveal ? this.view.plan : null, this.view.marks, movable ? this.at : null);

@@ -2,6 +2,7 @@
 
 import { element } from "./drawing.js";
 import { cm } from "./geometry.js";
+import { PROGRESS } from "./words.js";
 
 /** Draws the bounds, in centimetres or per cent, over revisions; looks without a bound sit at the top as hollow marks. */
 export function drawTrend(svg, trend, logarithmic, unit = "cm") {
@@ -20,12 +21,12 @@ export function drawTrend(svg, trend, logarithmic, unit = "cm") {
     pieces.push(element("path", { class: "grid", d: `M${m.l} ${y(v).toFixed(1)}H${(W - m.r).toFixed(1)}` }));
     pieces.push(element("text", { class: "axis", x: m.l - 6, y: y(v) + 4, "text-anchor": "end" }, `${v}`));
   }
-  pieces.push(element("text", { class: "axis", x: m.l - 6, y: H - 6, "text-anchor": "end" }, unit));
+  pieces.push(element("text", { class: "axis", x: m.l - 12, y: H - 6, "text-anchor": "end" }, unit));
   const stride = Math.max(1, Math.ceil(lastRevision / Math.max(3, w / 44)));
   for (let r = 0; r <= lastRevision; r += stride) pieces.push(element("text", { class: "axis", x: x(r), y: H - 6, "text-anchor": "middle" }, `${r}`));
   if (epsilon !== null) {
     pieces.push(element("path", { class: "goal", d: `M${m.l} ${y(epsilon * 100).toFixed(1)}H${(W - m.r).toFixed(1)}` }));
-    pieces.push(element("text", { class: "axis goal-text", x: W - m.r + 4, y: y(epsilon * 100) + 4 }, "goal"));
+    pieces.push(element("text", { class: "axis goal-text", x: W - m.r + 4, y: y(epsilon * 100) + 4 }, PROGRESS.goal));
   }
   let path = "", pen = "M";
   for (const p of trend) {
@@ -37,11 +38,11 @@ export function drawTrend(svg, trend, logarithmic, unit = "cm") {
   trend.forEach((p, i) => {
     const none = p.bound_m === null, last = i === trend.length - 1;
     const dot = element("circle", { class: `dot${none ? " none" : ""}${last ? " last" : ""}`, cx: x(p.revision), cy: none ? m.t + 2 : y(p.bound_m * 100), r: last ? 4.5 : 3.2 });
-    dot.append(element("title", {}, none ? `revision ${p.revision}: no bound. ${p.reason}` : `revision ${p.revision}: ${shown(p.bound_m)}`));
+    dot.append(element("title", {}, none ? PROGRESS.noBound(p.revision, p.reason) : PROGRESS.bound(p.revision, shown(p.bound_m))));
     pieces.push(dot);
   });
   svg.replaceChildren(...pieces);
-  svg.setAttribute("aria-label", trend.length ? `Bound against the goal of ${shown(epsilon)}: ${trend.slice(-12).map((p) => `revision ${p.revision} ${p.bound_m === null ? "no bound" : shown(p.bound_m)}`).join(", ")}` : "No bound yet");
+  svg.setAttribute("aria-label", trend.length ? PROGRESS.course(shown(epsilon), trend.slice(-12).map((p) => [p.revision, p.bound_m === null ? null : shown(p.bound_m)])) : PROGRESS.none);
 }
 
 function gridValues(top, bottom, logarithmic) {

@@ -2,6 +2,7 @@
 
 import { element } from "./drawing.js";
 import { number } from "./risk.js";
+import { WEIGHTS } from "./words.js";
 
 const ROW = 22;
 
@@ -18,7 +19,7 @@ export function drawWeights(svg, weights) {
     const y = ROW * i + ROW / 2 + 2;
     const row = element("g", { class: `hue-${i % 6}` });
     row.append(
-      element("title", {}, `${w.name}: ${number(w.mean)}, nine in ten between ${number(w.low)} and ${number(w.high)}`),
+      element("title", {}, WEIGHTS.row(w.name, number(w.mean), number(w.low), number(w.high))),
       element("text", { class: "weight-name", x: names, y: y + 4, "text-anchor": "end" }, w.name),
       element("path", { class: "weight-range", d: `M${x(w.low).toFixed(1)} ${y}H${x(w.high).toFixed(1)}` }),
       element("circle", { class: "weight-mean", cx: x(w.mean), cy: y, r: 4.2 }),
@@ -26,5 +27,5 @@ export function drawWeights(svg, weights) {
     pieces.push(row);
   });
   svg.replaceChildren(...pieces);
-  svg.setAttribute("aria-label", weights.length ? `Worth of each feature: ${weights.map((w) => `${w.name} ${number(w.mean)}, between ${number(w.low)} and ${number(w.high)}`).join("; ")}` : "Nothing is known of the features yet");
+  svg.setAttribute("aria-label", weights.length ? WEIGHTS.label(weights.map((w) => [w.name, number(w.mean), number(w.low), number(w.high)])) : WEIGHTS.none);
 }

@@ -7,15 +7,14 @@ import { cellWords, drawGrid } from "./grid.js";
 import { newId } from "./link.js";
 import { COMMON, drawReceipt } from "./receipt.js";
 import { asARule, number, percent, worstCase } from "./risk.js";
-import { ROAD_KEY, drawRoad, roadWords } from "./road.js";
+import { drawRoad, roadWords } from "./road.js";
 import { lessonStart } from "./session.js";
 import { drawTrend } from "./trend.js";
 import { drawWeights } from "./weights.js";
-import { WORDS, placeWords } from "./words.js";
+import { ANSWER, ANSWERS, BAR, CAUTION, GAUGE, QUESTION, RECEIPT, WORDS, WORLD } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
-const TITLES = { asking: "The robot is learning what you want.", taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up learning.", paused: "The lesson is paused.", finished: "The lesson is finished." };
 
 function text(id, words, value) {
   const node = $(id);
@@ -100,7 +99,7 @@ export class WorldLesson {
     if (!state.world.collision) state.world.collision = state.world.picture.kind === "road" ? state.world.cells.map((f, s) => (f === collisions ? s : -1)).filter((s) => s >= 0) : [];
     const asking = this.ask.isShown();
     $("skip-link").href = asking ? "#ask" : "#lambda";
-    text("skip-link", asking ? "Go to your answer" : "Go to how cautious the robot is");
+    text("skip-link", asking ? BAR.skipToAnswer : BAR.skipToCaution);
     this.ask.render();
     this.renderLesson();
     this.renderPolicy();
@@ -108,7 +107,7 @@ export class WorldLesson {
     drawWeights($("weights"), state.weights);
     drawAnswers($("world-answers"), state.answers, { ...this.on, look: () => {}, title: (answer) => WORDS.answer(state.world, answer) });
     const active = state.answers.filter((a) => a.state === "accepted").length;
-    text("world-count", state.answers.length ? `${active} in force of ${state.answers.length}` : "");
+    text("world-count", state.answers.length ? ANSWERS.count(active, state.answers.length) : "");
     $("world-no-answers").hidden = state.answers.length > 0;
     $("world-answers").hidden = state.answers.length === 0;
   }
@@ -117,23 +116,23 @@ export class WorldLesson {
     const { lesson, world, policy } = this.state;
     const question = this.state.world_question, asking = this.ask.isShown();
     const [, asked, why] = asking ? question.reason.match(/^([^?]{1,200}\?)\s+(.+)$/s) ?? [] : [];
-    text("world-kicker", asking ? WORDS.number(lesson?.questions_asked) : WORDS.lesson);
+    text("world-kicker", asking ? QUESTION.number(lesson?.questions_asked) : WORDS.lesson);
     text("world-name", asking ? question.id : world.id);
-    text("world-title", asked ?? TITLES[lesson?.state] ?? "One moment…");
+    text("world-title", asked ?? WORLD.titles[lesson?.state] ?? QUESTION.moment);
     text("world-why", why ?? "");
     text("answers-left", lesson?.state === "asking" ? this.left() : "");
     const bound = lesson?.loss_bound ?? null, goal = lesson?.epsilon_loss ?? null;
-    text("loss-bound", bound === null ? (lesson ? "no bound yet" : "–") : percent(bound), bound);
+    text("loss-bound", bound === null ? (lesson ? GAUGE.none : "–") : percent(bound), bound);
     $("loss-bound").dataset.revision = lesson?.revision ?? "";
     text("loss-goal", goal === null ? "–" : percent(goal), goal);
     const full = Math.max(bound ?? 0, (goal ?? 0.1) * 2) * 1.05;
     $("loss-fill").style.width = `${bound === null ? 100 : Math.min(100, (100 * bound) / full)}%`;
     $("loss-gauge").dataset.state = bound === null ? "none" : goal !== null && bound < goal ? "below" : "above";
     $("loss-mark").style.left = `${(100 * (goal ?? 0)) / full}%`;
-    $("loss-gauge").setAttribute("aria-label", `Of what choosing at random loses, the robot may lose ${bound === null ? "an unknown share" : percent(bound)}; the goal is ${percent(goal)}`);
+    $("loss-gauge").setAttribute("aria-label", GAUGE.lossLabel(bound === null ? null : percent(bound), percent(goal)));
     const thinking = asking && !question.open && lesson?.state === "asking";
     $("world-veil").hidden = Boolean(policy) && !thinking;
-    text("world-veil-text", thinking ? WORDS.thinking : "Thinking about what to do…");
+    text("world-veil-text", thinking ? QUESTION.thinking : WORLD.thinking);
   }
 
   /** How many more answers it may take: the bound's fall so far, as a straight line of its logarithm, drawn on to the goal. */
@@ -150,7 +149,7 @@ export class WorldLesson {
   renderPolicy() {
     const { policy, frontier, robust_bounds: bounds, caution } = this.state, at = this.preview();
     const has = policy && policy.expected_return !== null, mine = has ? policy : null;
-    text("world-risk", !policy ? "The robot has not decided what to do." : has ? `${worstCase(policy, policy.objective, policy.alpha)} ${asARule(policy, policy.objective, policy.alpha)}` : sentence(policy.reason), policy?.conditional_value_at_risk ?? null);
+    text("world-risk", !policy ? WORLD.undecided : has ? `${worstCase(policy, policy.objective, policy.alpha)} ${asARule(policy, policy.objective, policy.alpha)}` : sentence(policy.reason), policy?.conditional_value_at_risk ?? null);
     $("world-risk").dataset.revision = policy?.revision ?? "";
     $("world-risk").hidden = this.ask.isShown();
     this.draw();
@@ -162,12 +161,12 @@ export class WorldLesson {
     slider.style.setProperty("--share", `${100 * lambda}%`);
     drawFrontier($("frontier"), frontier, mine, at ?? -1);
     const point = at === null ? mine : frontier.points[at];
-    slider.setAttribute("aria-valuetext", point ? `average return ${number(point.expected_return)}; ${worstCase(point, policy?.objective ?? "robust", policy?.alpha ?? null)}` : `${percent(lambda)} average`);
+    slider.setAttribute("aria-valuetext", point ? CAUTION.value(number(point.expected_return), worstCase(point, policy?.objective ?? "robust", policy?.alpha ?? null)) : CAUTION.share(percent(lambda)));
     text("caution-words", this.cautionWords(point, at !== null));
     const moving = this.wish !== null && this.wish !== policy?.lambda;
     $("caution-apply").disabled = !moving || (this.sent !== null && this.sent.lambda === this.wish);
     const waiting = this.sent ?? (caution && !caution.taken ? caution : null);
-    text("caution-state", waiting ? "On its way to the robot…" : moving ? "a preview" : policy?.preference_id ? "as you chose" : has ? "as it was set" : "", waiting ? "sending" : moving ? "preview" : policy?.preference_id ? "chosen" : "");
+    text("caution-state", waiting ? ANSWER.onItsWay : moving ? CAUTION.preview : policy?.preference_id ? CAUTION.chosen : has ? CAUTION.set : "", waiting ? "sending" : moving ? "preview" : policy?.preference_id ? "chosen" : "");
     const same = bounds && policy && bounds.set_id.startsWith(`robust-${policy.revision}-`);
     text("world-claim", this.claim(same ? bounds : null));
     drawReceipt($("world-receipt"), same ? this.receipt(bounds) : null, this.lines());
@@ -175,26 +174,25 @@ export class WorldLesson {
 
   cautionWords(point, preview) {
     const { policy, frontier } = this.state;
-    if (!point || point.expected_return === null) return policy ? "" : "The robot is working it out.";
-    if (isFlat(frontier) && !preview) return "Here caution costs nothing: every balance comes to the same.";
+    if (!point || point.expected_return === null) return policy ? "" : CAUTION.waits;
+    if (isFlat(frontier) && !preview) return CAUTION.flat;
     const before = preview && policy?.expected_return !== null && policy ? policy : null;
     const change = before ? this.change(point.expected_return - before.expected_return, point.conditional_value_at_risk - before.conditional_value_at_risk) : "";
-    return `Average ${number(point.expected_return)}, worst case ${number(point.conditional_value_at_risk)}.${change}`;
+    return CAUTION.point(number(point.expected_return), number(point.conditional_value_at_risk), change);
   }
 
   /** What another balance would change, in words. */
   change(mean, worst) {
-    const part = (v, what) => (Math.abs(v) < 5e-4 ? null : `${what} ${number(Math.abs(v))} ${v > 0 ? "better" : "worse"}`);
-    const parts = [part(mean, "on average"), part(worst, "in the worst case")].filter(Boolean);
-    return parts.length ? ` Against now: ${parts.join(", ")}.` : " The same as now.";
+    const part = (v) => (Math.abs(v) < 5e-4 ? null : v > 0 ? CAUTION.better(number(v)) : CAUTION.worse(number(-v)));
+    return CAUTION.change(part(mean), part(worst));
   }
 
   claim(bounds) {
     const { policy } = this.state;
-    if (!bounds) return policy ? "Its bound is being worked out" : "";
+    if (!bounds) return policy ? WORLD.claimWaits : "";
     const least = bounds.least_return;
     if (least.bound === null) return sentence(least.reason);
-    return `${percent(1 - bounds.delta)} sure: at least ${number(least.bound)} in ${percent(bounds.alpha)} of what you may mean`;
+    return WORLD.claim(percent(1 - bounds.delta), number(least.bound), percent(bounds.alpha));
   }
 
   receipt(bounds) {
@@ -203,14 +201,14 @@ export class WorldLesson {
 
   lines() {
     return [
-      ["reason", "Claim", (b) => b.reason],
-      ["least", "Least return", (b) => number(b.least)],
-      ["mean", "The same for the best on average", (b) => number(b.mean)],
-      ["loss_bound", "Largest loss", (b) => number(b.loss_bound)],
-      ["share", "Of what choosing at random loses", (b) => percent(b.share)],
-      ["chosen_by", "Draws that chose the policy", (b) => `${b.policy.n_draws}; others judge it`],
-      ["held_out", "Worst case on these others", (b) => (b.policy.held_out_cvar === null ? "–" : `${number(b.policy.held_out_cvar)}${b.policy.held_out_interval ? `, ${percent(b.policy.confidence)} sure between ${b.policy.held_out_interval.map((v) => number(v)).join(" and ")}` : ""}`)],
-      ["gap", "Another policy may be better by", (b) => (b.policy.gap === null ? "–" : b.policy.gap.toExponential(1))],
+      ["reason", RECEIPT.names.reason, (b) => b.reason],
+      ["least", RECEIPT.names.least, (b) => number(b.least)],
+      ["mean", RECEIPT.names.mean, (b) => number(b.mean)],
+      ["loss_bound", RECEIPT.names.loss_bound, (b) => number(b.loss_bound)],
+      ["share", RECEIPT.names.share, (b) => percent(b.share)],
+      ["chosen_by", RECEIPT.names.chosen_by, (b) => RECEIPT.chosenBy(b.policy.n_draws)],
+      ["held_out", RECEIPT.names.held_out, (b) => (b.policy.held_out_cvar === null ? "–" : b.policy.held_out_interval ? RECEIPT.heldOut(number(b.policy.held_out_cvar), percent(b.policy.confidence), b.policy.held_out_interval.map((v) => number(v))) : number(b.policy.held_out_cvar))],
+      ["gap", RECEIPT.names.gap, (b) => (b.policy.gap === null ? "–" : b.policy.gap.toExponential(1))],
       ...COMMON(),
     ];
   }
@@ -223,6 +221,7 @@ export class WorldLesson {
   draw() {
     const { world } = this.state, quiet = this.ask.hidesPolicy(), { table, visits } = quiet ? { table: [], visits: [] } : this.table(), svg = $("world");
     svg.classList.toggle("preview", this.preview() !== null);
+    $("lesson-world").dataset.picture = world.picture.kind;
     svg.parentElement.style.setProperty("--stage", `${Math.round(this.height(svg.parentElement.clientWidth))}px`);
     if (world.picture.kind === "cells") drawGrid(svg, world, table, visits, this.looked);
     else if (world.picture.kind === "road") drawRoad(svg, world, table, visits, this.looked);
@@ -245,7 +244,7 @@ export class WorldLesson {
     const { world } = this.state, list = $("world-legend"), key = `${world.hash} ${world.picture.kind}`;
     if (list.dataset.key === key) return;
     list.dataset.key = key;
-    const names = world.picture.kind === "cells" ? world.features.map((name, i) => [name, `hue-${i % 6}`]) : world.picture.kind === "road" ? [["collision", "is-hit"], ["roadside", "is-verge"]] : [];
+    const names = world.picture.kind === "cells" ? world.features.map((name, i) => [name, `hue-${i % 6}`]) : world.picture.kind === "road" ? [[WORLD.collision, "is-hit"], [WORLD.roadside, "is-verge"]] : [];
     list.replaceChildren(...names.slice(0, 12).map(([name, className]) => {
       const item = document.createElement("li"), swatch = document.createElement("i");
       swatch.className = className;
@@ -257,9 +256,9 @@ export class WorldLesson {
   renderReadout() {
     if (!this.state) return;
     const { world } = this.state, quiet = this.ask.hidesPolicy(), { table } = quiet ? { table: [] } : this.table(), s = this.looked;
-    if (world.picture.kind === "none") return text("world-readout", `${world.n_states} states of ${world.actions.length} actions: too many to draw, or in no order that can be drawn.`);
-    if (s === null || s >= world.n_states) return text("world-readout", quiet ? WORDS.hidden : this.preview() !== null ? "A preview: the robot does not do this yet." : world.picture.kind === "road" ? ROAD_KEY : "Arrows: what the robot does; thick where it often comes. Dashed rings: where it starts.");
-    if (quiet) return text("world-readout", `${sentence(placeWords(world, s))}.`);
+    if (world.picture.kind === "none") return text("world-readout", WORLD.noPicture(world.n_states, world.actions.length));
+    if (s === null || s >= world.n_states) return text("world-readout", quiet ? WORDS.hidden : this.preview() !== null ? WORLD.preview : world.picture.kind === "road" ? WORLD.roadKey : WORLD.gridKey);
+    if (quiet) return text("world-readout", WORLD.place(world, s));
     text("world-readout", world.picture.kind === "cells" ? cellWords(world, table, s) : roadWords(world, table, s));
   }
 }
