@@ -9,5 +9,6 @@ mod log_lines;
 mod malformed;
 mod policies;
 mod row;
+mod rviz;
 mod trajectories;
 mod undo;

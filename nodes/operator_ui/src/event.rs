@@ -8,7 +8,9 @@ use apprentice_msgs::msg::{
     PolicyFrontier, Posterior, QueryResponse, Retraction, RiskPreference, RobustPolicy, SegmentCritique, TableScene,
     TabularWorld, TrajectoryPreference, WorldQuery,
 };
-use apprentice_msgs::visualization_msgs::MarkerArray;
+use apprentice_msgs::visualization_msgs::{
+    InteractiveMarker, InteractiveMarkerFeedback, InteractiveMarkerUpdate, MarkerArray,
+};
 
 /// What happens to the node.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +59,8 @@ pub enum Event {
     Joined(PageId),
     /// A page has sent a text.
     Said(PageId, String),
+    /// A person has moved or pressed an interactive marker; the second is a fresh id for what that says.
+    Handled(Box<InteractiveMarkerFeedback>, String),
     /// Half a second has passed.
     Tick,
 }
@@ -102,6 +106,13 @@ pub enum Output {
     Preference(Box<RiskPreference>),
     /// Publish for RViz.
     Markers(Box<MarkerArray>),
+    /// Publish for those who show interactive markers, and let the service tell all of them to who comes later.
+    Handles {
+        /// What has changed.
+        update: Box<InteractiveMarkerUpdate>,
+        /// All there are after it.
+        all: Vec<InteractiveMarker>,
+    },
     /// Look up the recordings, and answer with [`Event::Recordings`].
     LookUp,
     /// Read a recording of this name for the command of this id, and answer with [`Event::Recorded`].

@@ -19,6 +19,7 @@ pub mod protocol;
 mod question;
 mod recordings;
 mod run;
+mod rviz;
 mod server;
 mod settings;
 mod socket;

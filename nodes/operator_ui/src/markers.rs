@@ -3,7 +3,7 @@
 use crate::protocol::{BoundsView, ObjectView, PlanView, SceneView};
 use apprentice_msgs::geometry_msgs::Vector3;
 use apprentice_msgs::visualization_msgs::{Marker, MarkerArray};
-use exchange::{colour, delete_all_markers, marker, pose_at, text_marker};
+use exchange::{broken_text, colour, delete_all_markers, marker, pose_at, text_marker};
 
 const WOOD: [f32; 4] = [0.87, 0.80, 0.68, 1.0];
 const OBJECT: [f32; 4] = [0.93, 0.92, 0.89, 1.0];
@@ -11,10 +11,17 @@ const TARGET: [f32; 4] = [0.85, 0.46, 0.17, 0.9];
 const GUESS: [f32; 4] = [0.42, 0.31, 0.70, 0.55];
 const TABLE_THICKNESS_M: f64 = 0.02;
 const TEXT_M: f64 = 0.035;
+/// Longer lines are broken, characters.
+const LINE: usize = 56;
 
-/// Table, objects, the target beside the table, the robot's guess, and the bound in words. The stamp is zero, which
-/// means "the newest transform" to those who draw.
-pub(crate) fn markers(scene: &SceneView, plan: Option<&PlanView>, bounds: Option<&BoundsView>) -> MarkerArray {
+/// Table, objects, the robot's guess, and the bound in words; beside the table the target, or while a question is open its words:
+/// then the target is an interactive marker. The stamp is zero, which means "the newest transform" to those who draw.
+pub(crate) fn markers(
+    scene: &SceneView,
+    question: Option<&str>,
+    plan: Option<&PlanView>,
+    bounds: Option<&BoundsView>,
+) -> MarkerArray {
     let frame = &scene.frame_id;
     let mut list = vec![delete_all_markers(frame)];
     list.push(Marker {
@@ -30,8 +37,17 @@ pub(crate) fn markers(scene: &SceneView, plan: Option<&PlanView>, bounds: Option
     }
     let target = &scene.target;
     let (beside_x, beside_y) = (scene.width_m + target.size_x_m, 0.5 * scene.depth_m);
-    list.push(solid(frame, "target", 0, target, beside_x, beside_y, TARGET));
-    list.push(label(frame, "target", 1, &target.label, beside_x, beside_y, target.size_z_m + TEXT_M));
+    match question {
+        Some(words) => {
+            let text = broken_text(words, LINE);
+            let height_m = TEXT_M * (text.lines().count() as f64 + 5.0);
+            list.push(label(frame, "question", 0, &text, 0.5 * scene.width_m, scene.depth_m + height_m, TEXT_M));
+        }
+        None => {
+            list.push(solid(frame, "target", 0, target, beside_x, beside_y, TARGET));
+            list.push(label(frame, "target", 1, &target.label, beside_x, beside_y, target.size_z_m + TEXT_M));
+        }
+    }
     if let Some(spot) = plan.and_then(|plan| plan.map_placement) {
         list.push(solid(frame, "guess", 0, target, spot.x_m, spot.y_m, GUESS));
         list.push(label(frame, "guess", 1, "robot's guess", spot.x_m, spot.y_m, target.size_z_m + TEXT_M));

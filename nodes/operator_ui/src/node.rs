@@ -13,19 +13,22 @@ use crate::protocol::{
     ToPage, TrendPoint,
 };
 use crate::question::{Context, id_of, is_uuid};
+use crate::rviz::{Asked, Handles, map};
 use crate::settings::Settings;
 use crate::tabular::{News, Tabular};
 use crate::view::{
     bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point,
 };
 use apprentice_msgs::msg::{LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, TableScene};
-use apprentice_msgs::visualization_msgs::MarkerArray;
+use apprentice_msgs::visualization_msgs::{InteractiveMarkerFeedback, MarkerArray};
 use bus::Time;
 
 /// Points of the bound's history kept.
 const MAX_TREND: usize = 2000;
 /// A page is told that the node is alive this often, nanoseconds.
 const TICK_NS: i128 = 2_000_000_000;
+/// Of the interactive markers, unique on their topic.
+const SERVER_ID: &str = "operator_ui";
 
 /// Which sections have changed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -78,6 +81,7 @@ pub struct OperatorUi {
     answers: Answers,
     tabular: Tabular,
     arm: ArmPicture,
+    handles: Handles,
     presence: Presence,
     nodes: Vec<NodeView>,
     recordings: Vec<RecordingView>,
@@ -101,6 +105,7 @@ impl OperatorUi {
             answers: Answers::default(),
             tabular: Tabular::default(),
             arm: ArmPicture::default(),
+            handles: Handles::default(),
             presence: Presence::default(),
             nodes: Vec::new(),
             recordings: Vec::new(),
@@ -113,6 +118,7 @@ impl OperatorUi {
     pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
         let mut out = Vec::new();
         let mut changed = Changed::default();
+        let mut handled = false;
         let was_open = (self.context().is_open(), self.context().is_world_open());
         match event {
             Event::Scene(message) => changed.scene = self.take_scene(*message, &mut out),
@@ -184,6 +190,11 @@ impl OperatorUi {
                 }
                 Err((id, reason)) => out.push(tell(Some(page), &ToPage::Refused { id, reason })),
             },
+            Event::Handled(feedback, id) => {
+                handled = true;
+                changed.answers = true;
+                self.take_feedback(&now, &feedback, &id, &mut out);
+            }
             Event::Tick => out.extend(self.tick(&now)),
         }
         let nodes = self.presence.view(&now);
@@ -205,8 +216,14 @@ impl OperatorUi {
         if *sections != Sections::default() {
             out.push(tell(None, &ToPage::State { protocol: PROTOCOL, sections }));
         }
-        if changed.scene || changed.question || changed.guess || changed.plan || changed.bounds {
+        let is_asked_anew = changed.question || changed.world_question;
+        let is_drawn_anew =
+            changed.scene || changed.guess || changed.plan || changed.bounds || changed.tabular.is_drawn();
+        if is_asked_anew || is_drawn_anew {
             out.extend(self.markers().map(|message| Output::Markers(Box::new(message))));
+        }
+        if is_asked_anew || handled {
+            out.extend(self.refresh_handles());
         }
         out
     }
@@ -279,6 +296,16 @@ impl OperatorUi {
     ) -> Result<News, (Option<String>, String)> {
         let command: FromPage =
             serde_json::from_str(text).map_err(|error| (None, format!("the page sent no command: {error}")))?;
+        self.carry_out(now, command, out)
+    }
+
+    /// Carries out a command, or says why not.
+    fn carry_out(
+        &mut self,
+        now: &Time,
+        command: FromPage,
+        out: &mut Vec<Output>,
+    ) -> Result<News, (Option<String>, String)> {
         let id = Some(id_of(&command).chars().take(128).collect());
         if let FromPage::Caution { id: of, lambda } = &command {
             return self.tabular.say(now, &self.settings.source, of, *lambda).map_err(|reason| (id, reason));
@@ -305,6 +332,41 @@ impl OperatorUi {
             Ok(Some(evidence)) => self.answers.add(evidence).map(|()| News::NONE).map_err(|reason| (id, reason)),
             Err(reason) => Err((id, reason)),
         }
+    }
+
+    /// What is asked, for those who show it as interactive markers.
+    fn asked(&self) -> Asked<'_> {
+        let context = self.context();
+        if let Some((query, view)) = self.query.as_ref().filter(|_| context.is_open()) {
+            return Asked::Table(query, view);
+        }
+        match (self.tabular.query().filter(|_| context.is_world_open()), self.tabular.world()) {
+            (Some(query), Some(world)) => Asked::World(query, world, &self.settings.world_frame),
+            _ => Asked::Nothing,
+        }
+    }
+
+    /// Takes what a person did to an interactive marker; what cannot be meant is told where they look.
+    fn take_feedback(&mut self, now: &Time, feedback: &InteractiveMarkerFeedback, id: &str, out: &mut Vec<Output>) {
+        let mut handles = std::mem::take(&mut self.handles);
+        let meant = handles.take(self.asked(), feedback, id);
+        let refused = match meant {
+            Ok(None) => None,
+            Ok(Some(command)) => self.carry_out(now, command, out).err().map(|(_, reason)| reason),
+            Err(reason) => Some(reason),
+        };
+        if let Some(reason) = refused {
+            handles.hint(&reason);
+        }
+        self.handles = handles;
+    }
+
+    /// What those who show interactive markers are to be told.
+    fn refresh_handles(&mut self) -> Option<Output> {
+        let mut handles = std::mem::take(&mut self.handles);
+        let update = handles.refresh(self.asked(), SERVER_ID);
+        self.handles = handles;
+        update.map(|update| Output::Handles { update: Box::new(update), all: self.handles.all().to_vec() })
     }
 
     /// Begins a new lesson with what was said in a recording.
@@ -367,14 +429,19 @@ impl OperatorUi {
         sections
     }
 
-    /// The table in front of the robot for RViz: the question's while one is open, else the task's.
+    /// What there is to see for RViz: the table in front of the robot, the question's while one is open, else the task's; or the
+    /// map of a world.
     fn markers(&self) -> Option<MarkerArray> {
-        let open = self.query.as_ref().filter(|_| self.context().is_open());
-        let (view, plan) = match open {
-            Some((query, view)) => (view, self.guess.as_ref().filter(|guess| guess.query_id == query.id)),
-            None => (&self.scene.as_ref()?.1, self.plan.as_ref()),
-        };
-        Some(markers(view, plan, self.bounds.as_ref()))
+        let context = self.context();
+        if let Some((query, view)) = self.query.as_ref().filter(|_| context.is_open()) {
+            let guess = self.guess.as_ref().filter(|guess| guess.query_id == query.id);
+            return Some(markers(view, Some(&query.reason), guess, self.bounds.as_ref()));
+        }
+        if let Some((_, view)) = &self.scene {
+            return Some(markers(view, None, self.plan.as_ref(), self.bounds.as_ref()));
+        }
+        let query = self.tabular.query().filter(|_| context.is_world_open());
+        self.tabular.world().map(|world| map(world, self.tabular.policy(), query, &self.settings.world_frame))
     }
 }
 

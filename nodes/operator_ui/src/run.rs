@@ -8,14 +8,18 @@ use apprentice_msgs::msg::{
     ActionDemonstration, LearnerHistory, PlacementDemonstration, QueryResponse, Retraction, RiskPreference,
     SegmentCritique, TrajectoryPreference,
 };
-use apprentice_msgs::visualization_msgs::MarkerArray;
+use apprentice_msgs::visualization_msgs::{
+    GetInteractiveMarkers, GetInteractiveMarkersResponse, InteractiveMarkerUpdate, MarkerArray,
+};
 use bus::{Arguments, Bus, EventSender, Graph, Level, NodeError, Qos};
 use std::fs::File;
 use std::io::{Read, Write};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use uuid::Uuid;
 
 /// More wishes to read recordings are not kept.
 const MAX_WANTED: usize = 4;
@@ -42,6 +46,16 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let response = bus.publisher::<QueryResponse>("response", Qos::Event)?;
     let preference = bus.publisher::<RiskPreference>("risk_preference", Qos::State)?;
     let markers = bus.publisher::<MarkerArray>("markers", Qos::State)?;
+    let handles = bus.publisher::<InteractiveMarkerUpdate>("question/update", Qos::Event)?;
+    bus.subscribe("question/feedback", Qos::Event, |message| {
+        Event::Handled(Box::new(message), Uuid::new_v4().to_string())
+    })?;
+    // Who comes later asks for everything, and takes the updates after it.
+    let all_handles = Arc::new(Mutex::new(GetInteractiveMarkersResponse::default()));
+    let asked_for = Arc::clone(&all_handles);
+    bus.serve::<GetInteractiveMarkers>("question/get_interactive_markers", move |_| {
+        asked_for.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    })?;
     bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
     bus.subscribe("lesson", Qos::State, |message| Event::Lesson(Box::new(message)))?;
@@ -86,6 +100,11 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Output::Response(message) => response.publish(&message)?,
                 Output::Preference(message) => preference.publish(&message)?,
                 Output::Markers(message) => markers.publish(&message)?,
+                Output::Handles { update, all } => {
+                    let now = GetInteractiveMarkersResponse { sequence_number: update.seq_num, markers: all };
+                    *all_handles.lock().unwrap_or_else(PoisonError::into_inner) = now;
+                    handles.publish(&update)?;
+                }
                 // A page that asks for more than can be read asks again.
                 Output::LookUp => drop(files.try_send(Wanted::List)),
                 Output::Read { id, name } => drop(files.try_send(Wanted::Log { id, name })),

@@ -24,6 +24,8 @@ pub struct Settings {
     pub max_pages: i64,
     /// Folder of recorded sessions that a lesson can be taken up from; empty for none.
     pub recordings: String,
+    /// Frame that a world is drawn in for RViz: its own, or one that tf knows.
+    pub world_frame: String,
 }
 
 impl Default for Settings {
@@ -37,6 +39,7 @@ impl Default for Settings {
             allowed_hosts: Vec::new(),
             max_pages: 16,
             recordings: String::new(),
+            world_frame: "world".into(),
         }
     }
 }
@@ -86,6 +89,11 @@ impl NodeSettings for Settings {
         ParameterSpec {
             name: "recordings",
             about: "folder of recorded sessions that a page may take a lesson up from; empty: none",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "world_frame",
+            about: "frame that the map of a world has in markers for RViz",
             range: Range::Any,
         },
     ];

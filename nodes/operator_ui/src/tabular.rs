@@ -49,6 +49,13 @@ impl News {
         Self { world: true, policy: true, frontier: true, bounds: true, caution: true, weights: true, trend: true };
 }
 
+impl News {
+    /// Whether the map of the world looks different.
+    pub fn is_drawn(self) -> bool {
+        self.world || self.policy
+    }
+}
+
 impl std::ops::BitOrAssign for News {
     fn bitor_assign(&mut self, other: Self) {
         self.world |= other.world;
@@ -119,6 +126,16 @@ impl Tabular {
     /// The newest question about the world.
     pub fn query(&self) -> Option<&WorldQuery> {
         self.query.as_deref()
+    }
+
+    /// The world as it is shown.
+    pub fn world(&self) -> Option<&WorldView> {
+        self.world.as_ref().map(|(_, view)| view)
+    }
+
+    /// What the robot would do in it.
+    pub fn policy(&self) -> Option<&PolicyView> {
+        self.policy.as_ref()
     }
 
     /// The same for pages.

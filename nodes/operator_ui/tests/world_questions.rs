@@ -3,70 +3,14 @@
 mod world;
 
 use apprentice_msgs::msg::{
-    ActionDemonstration, CritiqueSegment, EvidenceReceipt, LessonStatus, QueryResponse, TabularWorld,
-    TrajectoryPreference, WorldQuery, WorldTrajectory,
+    ActionDemonstration, CritiqueSegment, EvidenceReceipt, LessonStatus, QueryResponse, TrajectoryPreference,
+    WorldQuery,
 };
-use exchange::world_from_message;
 use operator_ui::Event;
 use serde_json::{Value, json};
+use world::garden::{ask, asking, way_query};
 use world::id;
 use world::table::Table;
-
-/// Three cells in a row; the right one is the end.
-fn cells() -> TabularWorld {
-    TabularWorld {
-        id: "garden".into(),
-        gamma: 0.9,
-        n_states: 3,
-        n_actions: 2,
-        feature_names: vec!["path".into(), "door".into()],
-        action_names: vec!["left".into(), "right".into()],
-        initial: vec![1.0, 0.0, 0.0],
-        from_state: vec![0, 0, 1, 1],
-        action: vec![0, 1, 0, 1],
-        to_state: vec![0, 1, 0, 2],
-        probability: vec![1.0; 4],
-        features: vec![1.0, 0.0, 1.0, 0.0, 0.0, 1.0],
-        shape: vec![1, 3],
-        ..TabularWorld::default()
-    }
-}
-
-fn way(id: &str, steps: &[(u32, u32)], features: [f64; 2]) -> WorldTrajectory {
-    WorldTrajectory {
-        id: id.into(),
-        states: steps.iter().map(|step| step.0).collect(),
-        actions: steps.iter().map(|step| step.1).collect(),
-        features: features.to_vec(),
-    }
-}
-
-fn query(revision: u64, kind: u8) -> WorldQuery {
-    let name = |letter: &str| format!("w{revision}-{letter}");
-    let ways = [way(&name("a"), &[(0, 1), (1, 1), (2, 0)], [1.9, 0.81]), way(&name("b"), &[(0, 0)], [1.0, 0.0])];
-    WorldQuery {
-        id: format!("w{revision}"),
-        revision,
-        world: world_from_message(&cells()).expect("a good world").reference(),
-        kind,
-        trajectories: ways[..usize::from(kind)].to_vec(),
-        reason: "What should I do? I may be wrong.".into(),
-        ..WorldQuery::default()
-    }
-}
-
-fn asking(kind: u8) -> Table {
-    let mut table = Table::new();
-    table.hear(Event::World(Box::new(cells())));
-    ask(&mut table, 0, kind);
-    table
-}
-
-fn ask(table: &mut Table, revision: u64, kind: u8) {
-    table.hear(Event::WorldQuery(Box::new(query(revision, kind))));
-    let query_id = format!("w{revision}");
-    table.hear(Event::Lesson(Box::new(LessonStatus { revision, query_id, ..LessonStatus::default() })));
-}
 
 fn is_open(table: &Table) -> bool {
     table.shown["world_question"]["open"] == true
@@ -83,17 +27,17 @@ fn a_question_is_shown_with_its_ways_until_it_is_answered_or_the_lesson_moves_on
     assert_eq!((&shown["kind"], &shown["id"], &shown["open"]), (&json!("comparison"), &json!("w0"), &json!(true)));
     assert_eq!(shown["ways"][0], json!({"id": "w0-a", "states": [0, 1, 2], "actions": [1, 1, 0]}));
     table.shown = json!({});
-    table.hear(Event::WorldQuery(Box::new(query(0, WorldQuery::COMPARISON))));
+    table.hear(Event::WorldQuery(Box::new(way_query(0, WorldQuery::COMPARISON))));
     assert_eq!(table.shown, json!({}), "a repetition is no news");
     table.hear(Event::Lesson(Box::new(LessonStatus { revision: 1, ..LessonStatus::default() })));
     assert!(!is_open(&table));
     assert!(table.say(&act(1, "w0")).actions.is_empty());
     assert!(table.refused[0].1.contains("'w0' is no longer open"), "{:?}", table.refused);
     // What cannot be shown is told, and what is about another world waits for it.
-    let broken = WorldQuery { state: 9, ..query(1, WorldQuery::ACTION) };
+    let broken = WorldQuery { state: 9, ..way_query(1, WorldQuery::ACTION) };
     table.hear(Event::WorldQuery(Box::new(broken)));
     assert!(table.notices[0].contains("question 'w1' cannot be shown: its state 9 is out of range"));
-    let elsewhere = WorldQuery { world: Default::default(), ..query(1, WorldQuery::ACTION) };
+    let elsewhere = WorldQuery { world: Default::default(), ..way_query(1, WorldQuery::ACTION) };
     table.hear(Event::WorldQuery(Box::new(elsewhere)));
     assert_eq!((&table.shown["world_question"]["id"], table.notices.len()), (&json!("w0"), 1));
 }

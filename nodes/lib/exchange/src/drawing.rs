@@ -52,3 +52,30 @@ const INK: [f32; 4] = [0.15, 0.15, 0.17, 1.0];
 pub fn colour([r, g, b, a]: [f32; 4]) -> ColorRGBA {
     ColorRGBA { r, g, b, a }
 }
+
+/// A text in lines of at most so many characters, unless a word is longer.
+pub fn broken_text(text: &str, line: usize) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut().filter(|last| last.chars().count() + 1 + word.chars().count() <= line) {
+            Some(last) => {
+                last.push(' ');
+                last.push_str(word);
+            }
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::broken_text;
+
+    #[test]
+    fn lines_break_between_words() {
+        assert_eq!(broken_text("one two  three", 7), "one two\nthree");
+        assert_eq!(broken_text("incomprehensible a", 4), "incomprehensible\na");
+        assert_eq!(broken_text(" ", 4), "");
+    }
+}

@@ -11,7 +11,7 @@ mod text;
 mod world;
 mod world_query;
 
-pub use drawing::{colour, delete_all_markers, marker, pose_at, text_marker, upright};
+pub use drawing::{broken_text, colour, delete_all_markers, marker, pose_at, text_marker, upright};
 pub use evidence::{
     Confidence, EvidenceError, MAX_FEATURE, MAX_STEPS, MAX_TRAJECTORIES, Mark, check_history, check_preference,
     confidence_from_message, marks_from_message, steps_from_message,

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub mod garden;
 pub mod table;
 
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};

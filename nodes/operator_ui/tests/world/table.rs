@@ -5,6 +5,7 @@ use apprentice_msgs::msg::{
     ActionDemonstration, LearnerHistory, PlacementDemonstration, QueryResponse, Retraction, RiskPreference,
     SegmentCritique, TrajectoryPreference,
 };
+use apprentice_msgs::visualization_msgs::{InteractiveMarker, Marker};
 use operator_ui::{Event, OperatorUi, Output, Settings};
 use serde_json::{Value, json};
 
@@ -15,6 +16,12 @@ pub struct Table {
     pub shown: Value,
     pub refused: Vec<(Value, String)>,
     pub notices: Vec<String>,
+    /// Interactive markers, as a client has them that takes every update.
+    pub handles: Vec<InteractiveMarker>,
+    /// The number of the last update.
+    pub sequence: u64,
+    /// Markers, the newest.
+    pub drawn: Vec<Marker>,
 }
 
 #[derive(Default)]
@@ -35,7 +42,16 @@ pub struct Sent {
 impl Table {
     pub fn new() -> Self {
         let node = OperatorUi::new(Settings::default());
-        Self { node, now_s: 100.0, shown: json!({}), refused: Vec::new(), notices: Vec::new() }
+        Self {
+            node,
+            now_s: 100.0,
+            shown: json!({}),
+            refused: Vec::new(),
+            notices: Vec::new(),
+            handles: Vec::new(),
+            sequence: 0,
+            drawn: Vec::new(),
+        }
     }
 
     /// A node that has heard everything of a revision.
@@ -70,7 +86,24 @@ impl Table {
                 Output::History(message) => sent.histories.push(*message),
                 Output::Read { id, name } => sent.reads.push((id, name)),
                 Output::LookUp => sent.lookups += 1,
-                Output::Markers(_) => sent.markers += 1,
+                Output::Markers(message) => {
+                    self.drawn = message.markers;
+                    sent.markers += 1;
+                }
+                Output::Handles { update, all } => {
+                    assert_eq!(update.seq_num, self.sequence + 1, "a client would begin anew");
+                    assert!(!update.server_id.is_empty());
+                    self.sequence = update.seq_num;
+                    self.handles.retain(|marker| !update.erases.contains(&marker.name));
+                    for marker in update.markers {
+                        match self.handles.iter_mut().find(|known| known.name == marker.name) {
+                            Some(known) => *known = marker,
+                            None => self.handles.push(marker),
+                        }
+                    }
+                    assert_eq!(self.handles.len(), all.len(), "who comes late has what the others have");
+                    assert!(all.iter().all(|marker| self.handles.contains(marker)));
+                }
                 Output::Warn(_) => {}
                 Output::Told(told) => {
                     let value: Value = serde_json::from_str(&told.text).expect("pages get JSON");

@@ -1,0 +1,66 @@
+//! A question about a table as handles: the target is moved by hand, and its menu or a tile answers.
+
+use super::draft::Draft;
+use super::tiles::{ANSWER, Column, PASS, entry, handle, how_sure};
+use super::{named, passes};
+use crate::protocol::SceneView;
+use apprentice_msgs::geometry_msgs::{Quaternion, Vector3};
+use apprentice_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerControl, Marker};
+use exchange::{colour, marker};
+use std::f64::consts::FRAC_1_SQRT_2;
+
+const TARGET: [f32; 4] = [0.85, 0.46, 0.17, 0.9];
+const BLOCKED: [f32; 4] = [0.72, 0.16, 0.14, 0.7];
+/// The entry of the menu above the answers.
+const BELONGS: u32 = 10;
+/// An entry of the menu.
+pub(super) const SKIP: u32 = 11;
+/// An entry of the menu.
+pub(super) const CANT_TELL: u32 = 12;
+
+/// The handles.
+pub(super) fn handles(id: &str, scene: &SceneView, draft: &Draft) -> Vec<InteractiveMarker> {
+    let frame = scene.frame_id.as_str();
+    let mut column = Column { x_m: scene.width_m + scene.target.size_x_m + 0.3, y_m: scene.depth_m };
+    let mut place = column.tile(
+        frame,
+        named(id, "place"),
+        "It belongs here",
+        if draft.at_m.is_some() && !draft.is_blocked { ANSWER } else { PASS },
+    );
+    place.menu_entries = how_sure(0);
+    let mut all = vec![target(id, scene, draft), place];
+    all.extend(passes(frame, id, &mut column));
+    all
+}
+
+/// The thing to be placed: it slides over the table. It waits beside it.
+fn target(id: &str, scene: &SceneView, draft: &Draft) -> InteractiveMarker {
+    let target = &scene.target;
+    let beside_m = [scene.width_m + target.size_x_m, 0.5 * scene.depth_m];
+    let [x_m, y_m] = draft.at_m.unwrap_or(beside_m);
+    let body = Marker {
+        r#type: if target.shape == "box" { Marker::CUBE } else { Marker::CYLINDER },
+        scale: Vector3 { x: target.size_x_m, y: target.size_y_m, z: target.size_z_m },
+        color: colour(if draft.is_blocked { BLOCKED } else { TARGET }),
+        ..marker("", "target", 0)
+    };
+    let slide = InteractiveMarkerControl {
+        name: "slide".into(),
+        // The plane is across the control's own x axis, which this turns upwards.
+        orientation: Quaternion { x: 0.0, y: -FRAC_1_SQRT_2, z: 0.0, w: FRAC_1_SQRT_2 },
+        interaction_mode: InteractiveMarkerControl::MOVE_PLANE,
+        always_visible: true,
+        markers: vec![body],
+        ..InteractiveMarkerControl::default()
+    };
+    let mut menu = vec![entry(BELONGS, 0, "It belongs here")];
+    menu.extend(how_sure(BELONGS));
+    menu.extend([entry(SKIP, 0, "Skip this question"), entry(CANT_TELL, 0, "I can't tell")]);
+    InteractiveMarker {
+        description: if draft.hint.is_empty() { target.label.clone() } else { draft.hint.clone() },
+        menu_entries: menu,
+        controls: vec![slide],
+        ..handle(&scene.frame_id, named(id, "target"), [x_m, y_m, 0.5 * target.size_z_m])
+    }
+}
