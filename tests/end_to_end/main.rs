@@ -2,17 +2,24 @@
 
 mod asking;
 mod bad_command_lines;
+mod caller;
 mod caution;
 mod chromium;
 mod foreign_bags;
+mod hostile_pages;
 mod killed_nodes;
+mod killed_page;
 mod operator_page;
 mod peer;
 mod python;
+mod rapid_answers;
 mod recorded;
 mod replayed;
+mod seated;
+mod session_controls;
 mod suite;
 mod tabular;
 mod taught;
+mod two_tabs;
 mod whole_loop;
 mod worlds;

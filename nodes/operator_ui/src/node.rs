@@ -372,6 +372,10 @@ impl OperatorUi {
     /// Begins a new lesson with what was said in a recording.
     fn take_up(&mut self, now: Time, found: Recorded) -> Option<Output> {
         let Recorded { id, name, log } = found;
+        // A page that repeats its command while the recording is being read has it read twice.
+        if self.answers.knows(&id) {
+            return None;
+        }
         let pieces = log.and_then(|log| said_once_more(&id, now, &log));
         let begin = new_lesson(&id, now, &self.settings.source, &name);
         let refused = pieces.and_then(|pieces| self.answers.take_up(begin, pieces)).err()?;

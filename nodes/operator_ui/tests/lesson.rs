@@ -92,6 +92,10 @@ fn a_recording_is_taken_up_as_a_new_lesson_with_what_counted_in_it() {
     assert_eq!(sent.responses[0].kind, QueryResponse::NEW_LESSON);
     assert!(sent.demonstrations.is_empty(), "they wait for the new lesson");
     assert_eq!(table.answer(&format!("{}-1", id(9)))["state"], "pending");
+    let listed = table.shown["answers"].clone();
+    let sent = table.hear(Event::Recorded(Box::new(recorded.clone())));
+    assert!(sent.responses.is_empty(), "it was read twice, as the command was repeated meanwhile");
+    assert_eq!(table.shown["answers"], listed);
     let sent = table.receive(&id(9), EvidenceReceipt::ACCEPTED, 4);
     let [again] = sent.demonstrations.as_slice() else { panic!("one placement counted") };
     assert_eq!((again.placement, again.confidence, &again.source), (kept.placement, kept.confidence, &kept.source));
