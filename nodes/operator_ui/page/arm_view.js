@@ -231,19 +231,35 @@ export class ArmView {
     const { scene, spots, target } = this.view;
     const texts = [
       ...scene.objects.map((object) => ({ text: object.label, at: [object.x_m, object.y_m, object.size_z_m + 0.03], kind: "" })),
-      ...spots.map((spot) => ({ text: spot.label, at: [spot.x_m, spot.y_m, 0.02], kind: spot.kind })),
+      ...spots.map((spot) => ({ text: spot.label, at: [spot.x_m, spot.y_m, 0.02], kind: spot.kind, isPlace: true })),
       ...(target ? [{ text: target.label, at: target.pose ? along(target.pose, [0, 0, target.size_z_m + 0.03]) : [target.x_m, target.y_m, target.z_m + target.size_z_m + 0.03], kind: "target" }] : []),
     ];
     while (this.labels.children.length > texts.length) this.labels.lastChild.remove();
-    texts.forEach(({ text, at, kind }, i) => {
+    const shown = texts.map(({ text, at, kind, isPlace = false }, i) => {
       const label = this.labels.children[i] ?? this.labels.appendChild(document.createElement("span")), m = this.camera.matrix;
       const p = [0, 1, 2, 3].map((row) => m[row] * at[0] + m[4 + row] * at[1] + m[8 + row] * at[2] + m[12 + row]);
-      label.textContent = text;
+      if (label.textContent !== text) label.textContent = text;
       label.className = `arm-label ${kind}`;
-      label.style.transform = `translate(${(0.5 + p[0] / p[3] / 2) * width}px, ${(0.5 - p[1] / p[3] / 2) * height}px) translate(-50%, -50%)`;
       label.hidden = !(p[3] > 0);
-    });
+      return { label, x: (0.5 + p[0] / p[3] / 2) * width, y: (0.5 - p[1] / p[3] / 2) * height, far: p[3], isPlace };
+    }).filter(({ label }) => !label.hidden);
+    // Measured when all are written, so that the browser lays them out once.
+    for (const one of shown) Object.assign(one, { w: one.label.offsetWidth, h: one.label.offsetHeight });
+    for (const { label, x, y } of stepAside(shown, height)) label.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
   }
+}
+
+/** Moves labels that would cover others up or down, no further than it takes. A number keeps its place before a name, because it says where; then what is near before what is far. */
+function stepAside(labels, height) {
+  const placed = [];
+  for (const label of labels.toSorted((a, b) => b.isPlace - a.isPlace || a.far - b.far)) {
+    const beside = placed.filter((other) => 2 * Math.abs(other.x - label.x) < other.w + label.w);
+    const isFree = (y) => beside.every((other) => 2 * Math.abs(other.y - y) > other.h + label.h - 0.1);
+    const rows = [label.y, ...beside.flatMap((other) => [-0.5, 0.5].map((side) => other.y + side * (other.h + label.h)))].filter(isFree).sort((a, b) => Math.abs(a - label.y) - Math.abs(b - label.y));
+    // Above the topmost there is always room, but perhaps not in the picture.
+    placed.push({ ...label, y: rows.find((y) => 2 * y > label.h && 2 * (height - y) > label.h) ?? rows[0] });
+  }
+  return placed;
 }
 
 /** The poses of all links at a time between those of a motion: the nearest two, mixed. */

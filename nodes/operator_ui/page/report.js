@@ -9,24 +9,11 @@ import { asARule, number, percent, worstCase } from "./risk.js";
 import { ROAD_KEY, drawRoad } from "./road.js";
 import { inForce, lessonStart } from "./session.js";
 import { drawTrend } from "./trend.js";
-import { WORDS, placeWords } from "./words.js";
+import { ANSWERS, CAUTION, RECEIPT, REPORT, WORDS, WORLD } from "./words.js";
 
 /** The node shows no more answers than these, the newest; as MAX_ANSWERS in protocol.rs. */
 const MAX_ANSWERS = 200;
 const MAX_WEIGHTS = 12;
-const LESSON = {
-  waiting: "No lesson has begun", asking: "Still learning", taught: "Taught: the robot has learned enough", stopped: "Stopped by the person", gave_up: "The robot gave up asking",
-  paused: "Paused: the robot asks nothing for now", finished: "Finished: the person said that this is enough", unknown: "Where the lesson stands is not known",
-};
-const CONFIDENCE = { sure: "sure", fairly: "fairly sure", guess: "a guess" };
-const SAID = { skip: "Skipped", cant_tell: "Can't tell", stop: "Stopped the lesson", pause: "Paused the lesson", start: "Started the lesson", finish: "Finished the lesson", new_lesson: "Began a new lesson" };
-const COUNTED = { actions: (n) => `Showed a walk of ${n} steps`, preference: (n) => `Compared ${n} walks`, critique: (n) => `Marked ${n} parts of a walk`, history: (n) => `${n} attempts of a learner` };
-const ASKED = { actions: "What to do", preference: "Which of two ways is better", critique: "What is good and what is bad in a way" };
-const OUTCOMES = {
-  planned: "A motion there is planned", no_free_place: "There is no free place", unreachable: "The arm reaches no free place", no_path: "No collision-free motion was found", no_robot: "There is no robot to move",
-  start_in_collision: "The arm touches something where it is", goal_in_collision: "The arm would touch something at every free place", joints_unknown: "Where the arm is, is not known", outside_limits: "A joint of the arm is outside its limits", unknown: "What became of the plan is not known",
-};
-const VERDICTS = { chosen: "chosen", next_best: "next best", unreachable: "out of reach", no_path: "no way there", blocked: "blocked", unknown: "not known" };
 
 // ---- pieces -------------------------------------------------------------------------------------------------------
 
@@ -34,7 +21,7 @@ const VERDICTS = { chosen: "chosen", next_best: "next best", unreachable: "out o
 function make(name, className, ...inside) {
   const made = document.createElement(name);
   if (className) made.className = className;
-  made.append(...inside.filter((piece) => piece !== null && piece !== undefined).map((piece) => (piece instanceof Node ? piece : String(piece).replace(/(\d) (?=%|cm\b)|(revision) (?=\d)/g, "$1$2\u00a0"))));
+  made.append(...inside.filter((piece) => piece !== null && piece !== undefined).map((piece) => (piece instanceof Node ? piece : REPORT.unbroken(String(piece)))));
   return made;
 }
 
@@ -43,7 +30,7 @@ const sentence = (words) => (words ? `${capital(words)}${/[.!?…]$/.test(words)
 const said = (...parts) => parts.filter(Boolean).map(sentence).join(" ");
 const paragraph = (words, className = "") => (words ? make("p", className, words) : null);
 const section = (title, ...inside) => make("section", "", make("h2", "", title), ...inside);
-const place = ({ x_m, y_m }) => `${cm(x_m)} from the left, ${cm(y_m)} from the robot's edge`;
+const place = ({ x_m, y_m }) => REPORT.place(cm(x_m), cm(y_m));
 const short = (id) => (id.length > 14 ? `${id.slice(0, 8)}…` : id);
 
 /** A table; `columns` are [title, class], where the class `number` aligns to the right. */
@@ -115,105 +102,102 @@ function read(state) {
 
 /** What is guaranteed, in words that a person can be held to. */
 function guarantee(of) {
-  const { bound, goal, judged, amount } = of, name = of.subject ?? "target";
-  const aim = goal === null ? "No goal is known" : `The goal is ${amount(goal)}`;
-  if (bound === null) return said(of.missing ? `Nothing guarantees how well the robot does: ${of.missing}` : "Nothing guarantees how well the robot does: no bound has been computed", aim);
+  const { bound, goal, judged, amount } = of, aim = goal === null ? null : amount(goal);
+  if (bound === null) return said(REPORT.nothing(of.missing), REPORT.aim(aim, null));
   const isSame = Boolean(judged) && judged.revision === of.boundRevision && judged.delta !== null;
-  const start = isSame ? `With ${percent(1 - judged.delta)} confidence` : "By a bound whose receipt is not at hand", share = isSame && judged.alpha !== null ? `, for ${percent(judged.alpha)} of what the person may mean` : "";
-  const what = of.isAboutWorld ? `the robot loses at worst ${amount(bound)} of what choosing at random loses` : `the robot puts the ${name} at worst ${amount(bound)} from where the person would`;
-  return said(`${start}, ${what}${share}`, goal === null ? aim : `${aim}: ${bound < goal ? "reached" : "not reached"}`);
+  const what = of.isAboutWorld ? REPORT.loses(amount(bound)) : REPORT.puts(of.subject, amount(bound));
+  return said(REPORT.guarantee(isSame ? percent(1 - judged.delta) : null, what, isSame && judged.alpha !== null ? percent(judged.alpha) : null), REPORT.aim(aim, bound < goal));
 }
 
 function heading(of, now) {
   const { lesson, posterior } = of, word = lesson?.state ?? "waiting", revision = posterior?.revision ?? lesson?.revision ?? null;
   const time = Object.assign(make("time", "", now.toLocaleString([], { dateStyle: "long", timeStyle: "long" })), { dateTime: now.toISOString() });
-  const about = of.subject === null ? "Nothing is known yet of what is taught." : of.isAboutWorld ? `What to do in the world “${of.subject}”` : `Where the ${of.subject} belongs`;
-  const claim = !of.isAboutWorld && of.bound !== null && of.bounds.reason ? `The claim in full: ${sentence(of.bounds.reason)}` : "";
-  const late = of.bound !== null && revision !== null && of.boundRevision < revision ? `This bound is of revision ${of.boundRevision}; what was said since, up to revision ${revision}, is not in it.` : "";
+  const about = of.subject === null ? REPORT.none.subject : of.isAboutWorld ? REPORT.world(of.subject) : REPORT.where(of.subject);
+  const claim = !of.isAboutWorld && of.bound !== null && of.bounds.reason ? REPORT.claim(sentence(of.bounds.reason)) : "";
+  const late = of.bound !== null && revision !== null && of.boundRevision < revision ? REPORT.late(of.boundRevision, revision) : "";
   // While it learns, the lesson's reason is the claim itself.
-  const why = lesson && word !== "asking" && lesson.reason ? `${LESSON[word] ?? LESSON.unknown}; ${lesson.reason}` : LESSON[word] ?? LESSON.unknown;
-  const facts = [["At worst", of.bound === null ? "no bound" : of.amount(of.bound)], ["Goal", of.amount(of.goal)], ["Answers in force", inForce(of.answers).length], ["Revision", revision ?? "–"]];
-  return make("header", "", make("h1", "", "Lesson report"), make("p", "report-date", time), make("p", "report-subject", about),
+  const stands = REPORT.lesson[word] ?? REPORT.lesson.unknown, why = lesson && word !== "asking" && lesson.reason ? REPORT.because(stands, lesson.reason) : stands, names = REPORT.facts;
+  const facts = [[names.worst, of.bound === null ? REPORT.none.bound : of.amount(of.bound)], [names.goal, of.amount(of.goal)], [names.inForce, inForce(of.answers).length], [names.revision, revision ?? "–"]];
+  return make("header", "", make("h1", "", REPORT.title), make("p", "report-date", time), make("p", "report-subject", about),
     paragraph(sentence(why), "report-state"), make("dl", "report-facts", ...facts.map(([name, value]) => make("div", "", make("dt", "", name), make("dd", "", value)))),
     paragraph(guarantee(of), of.bound === null ? "report-none" : ""), paragraph(claim, "report-claim"), paragraph(late, "report-none"));
 }
 
 function progress(of) {
-  if (!of.points.length) return section("The bound against the goal", paragraph("No bound has been looked at in this lesson."));
+  if (!of.points.length) return section(REPORT.progress, paragraph(REPORT.none.look));
   const svg = drawnAt(660, 190, (made) => drawTrend(made, of.points, false, of.isAboutWorld ? "%" : "cm"));
   const none = of.points.filter((point) => point.bound_m === null).length;
-  const what = of.isAboutWorld ? "What the robot may lose, in % of what choosing at random loses" : "How far off the robot may be at worst, in cm";
-  return section("The bound against the goal", figure(svg, said(`${what}, after each revision; dashed: the goal`, none ? `Hollow marks at the top: there was no bound (${none} of ${of.points.length} looks)` : "")));
+  return section(REPORT.progress, figure(svg, said(of.isAboutWorld ? REPORT.courseOfLoss : REPORT.courseOfDistance, none ? REPORT.hollow(none, of.points.length) : "")));
 }
 
 // ---- what was said ------------------------------------------------------------------------------------------------
 
 function question(of, answer) {
   const id = answer.query_id ? make("span", "report-id", short(answer.query_id)) : null, isOfLesson = ["stop", "pause", "start", "finish", "new_lesson"].includes(answer.kind);
-  const words = answer.kind === "placement" ? `Where the ${answer.scene?.target.label ?? "target"} belongs`
-    : answer.kind === "actions" && answer.step && of.world && answer.step[0] < of.world.n_states ? `What to do ${placeWords(of.world, answer.step[0]).replace(/^(?!in )/, "in ")}` : ASKED[answer.kind] ?? "";
-  return make("span", "", words || (isOfLesson ? "–" : answer.query_id ? "A question" : "Nothing"), answer.query_id ? " " : isOfLesson ? null : " (not asked)", id);
+  const words = answer.kind === "placement" ? REPORT.where(answer.scene?.target.label)
+    : answer.kind === "actions" && answer.step && of.world && answer.step[0] < of.world.n_states ? REPORT.askedThere(of.world, answer.step[0]) : REPORT.asked[answer.kind] ?? "";
+  return make("span", "", words || (isOfLesson ? "–" : answer.query_id ? REPORT.unnamed.question : REPORT.unnamed.nothing), answer.query_id ? " " : isOfLesson ? null : ` ${REPORT.unasked}`, id);
 }
 
 function told(of, answer) {
-  if (answer.kind === "placement") return answer.x_m === null || answer.y_m === null ? "A place" : place(answer);
-  return (of.world ? WORDS.answer(of.world, answer) : undefined) ?? (answer.n !== null ? COUNTED[answer.kind]?.(answer.n) : undefined) ?? SAID[answer.kind] ?? answer.kind;
+  if (answer.kind === "placement") return answer.x_m === null || answer.y_m === null ? REPORT.unnamed.place : place(answer);
+  return (of.world ? WORDS.answer(of.world, answer) : undefined) ?? (answer.n !== null ? ANSWERS.counted[answer.kind]?.(answer.n) : undefined) ?? REPORT.kinds[answer.kind] ?? answer.kind;
 }
 
 function answers(of) {
   const counted = inForce(of.answers).length;
-  if (!of.answers.length) return section("What was said", paragraph("Nothing has been answered."));
-  const withTables = of.answers.some((answer) => answer.scene);
-  const columns = [["No.", "number"], ...(withTables ? [["Table", "report-thumbnail"]] : []), ["Asked", "report-asked"], ["Answered", "report-said"], ["How sure", ""], ["What became of it", "report-fate"], ["By", "report-by"]];
+  if (!of.answers.length) return section(REPORT.answers, paragraph(REPORT.none.answers));
+  const withTables = of.answers.some((answer) => answer.scene), names = REPORT.columns;
+  const columns = [[REPORT.number, "number"], ...(withTables ? [[names.table, "report-thumbnail"]] : []), [names.asked, "report-asked"], [names.answered, "report-said"], [names.sure, ""], [names.became, "report-fate"], [names.by, "report-by"]];
   const rows = of.answers.map((answer, i) => ({
     className: `is-${answer.state}`,
     cells: [i + 1, ...(withTables ? [answer.scene ? tableFromAbove(answer.scene, answer.x_m === null || answer.y_m === null ? [] : [{ ...answer, isChosen: true }], 46) : ""] : []),
-      question(of, answer), capital(told(of, answer)), CONFIDENCE[answer.confidence] ?? "–", `${answer.state === "accepted" ? "in force, " : ""}${fate(answer)}`, answer.source || "–"],
+      question(of, answer), capital(told(of, answer)), ANSWERS.confidence[answer.confidence] ?? "–", REPORT.fate(answer.state === "accepted", fate(answer)), answer.source || "–"],
   }));
-  const newest = of.answers.length >= MAX_ANSWERS ? `These are the newest ${of.answers.length}; earlier ones are not shown.` : "";
-  return section("What was said", paragraph(said(`${counted} of ${of.answers.length} in force`, newest)), table(columns, rows));
+  const newest = of.answers.length >= MAX_ANSWERS ? REPORT.newest(of.answers.length) : "";
+  return section(REPORT.answers, paragraph(said(REPORT.count(counted, of.answers.length), newest)), table(columns, rows));
 }
 
 // ---- what the robot makes of it -----------------------------------------------------------------------------------
 
 function robot(of) {
-  const title = "What the robot would do now";
   // On the page, too, the robot's opinion comes after the person's.
-  if (of.asking) return section(title, paragraph("A question is open. What the robot would do is left out, so that it does not sway the answer."));
-  return section(title, ...(of.isAboutWorld ? policy(of) : plan(of)));
+  if (of.asking) return section(REPORT.robot, paragraph(REPORT.isOpen));
+  return section(REPORT.robot, ...(of.isAboutWorld ? policy(of) : plan(of)));
 }
 
 function plan({ plan: made, scene, subject, posterior }) {
-  if (!made) return [paragraph("The robot has no plan for the table as it is.")];
+  if (!made) return [paragraph(REPORT.none.plan)];
   const isHere = made.scene_id === scene?.id, { map_placement: map, robust_placement: robust } = made;
-  const worst = made.alpha === null ? "the worst case" : `the worst ${percent(1 - made.alpha)}`, risk = (v) => (v === null ? "" : `${cm(v)} off on average in ${worst} of what the person may mean`);
-  const old = posterior && made.revision < posterior.revision ? `This plan is of revision ${made.revision}; the answers are at revision ${posterior.revision}.` : "";
+  const worst = CAUTION.tail(made.alpha === null ? null : percent(1 - made.alpha)), risk = (v) => (v === null ? "" : REPORT.risk(cm(v), worst));
+  const old = posterior && made.revision < posterior.revision ? REPORT.oldPlan(made.revision, posterior.revision) : "";
+  const names = REPORT.plan, outcome = REPORT.outcome(REPORT.outcomes[made.outcome] ?? REPORT.outcomes.unknown, made.outcome === "planned" ? made.motion_s : null);
   const facts = [
-    ["The place it takes", robust ? `${sentence(place(robust))} ${sentence(risk(made.robust_cvar_m))}` : "none"],
-    ["The most likely place", map ? `${sentence(place(map))} ${sentence(risk(made.map_cvar_m))}` : "none"],
-    ["Outcome", said(`${OUTCOMES[made.outcome] ?? OUTCOMES.unknown}${made.outcome === "planned" ? `, in ${made.motion_s.toFixed(1)} s` : ""}`, made.reason)],
-    ["May it move", made.inside_bound ? "Yes: for this table the bound is below the goal." : "No: for this table the bound is not known to be below the goal."],
+    [names.takes, robust ? `${sentence(place(robust))} ${sentence(risk(made.robust_cvar_m))}` : names.none],
+    [names.likely, map ? `${sentence(place(map))} ${sentence(risk(made.map_cvar_m))}` : names.none],
+    [names.outcome, said(outcome, made.reason)],
+    [names.may, made.inside_bound ? REPORT.mayMove.yes : REPORT.mayMove.no],
   ];
   const list = make("dl", "report-list", ...facts.flatMap(([name, value]) => [make("dt", "", name), make("dd", "", value)]));
   const considered = made.candidates ?? [], spots = considered.map((one, i) => ({ ...one, label: String(i + 1), isChosen: one.verdict === "chosen" }));
   if (robust && !spots.some((spot) => spot.isChosen)) spots.unshift({ ...robust, label: "", isChosen: true });
   if (map) spots.push({ ...map, label: "", isTarget: true });
-  const picture = isHere && spots.length ? figure(tableFromAbove(scene, spots, 460), `The table from above, the robot's side below. Black: where the robot would put the ${subject}.${considered.length ? " Numbers: the places below." : ""}${map ? " Square: the most likely place." : ""}`) : null;
-  const columns = [["No.", "number"], ["From the left", "number"], ["From the robot's edge", "number"], ["Verdict", ""], ["Why", "report-said"], ["Free space around", "number"], ["Off in the worst case", "number"], ["Best for", "number"]];
-  const rows = considered.map((one, i) => ({ className: one.verdict === "chosen" ? "is-chosen" : "", cells: [i + 1, cm(one.x_m), cm(one.y_m), VERDICTS[one.verdict] ?? one.verdict, sentence(one.reason), cm(one.clearance_m), cm(one.cvar_m), percent(one.probability_best)] }));
-  return [paragraph(old, "report-none"), isHere ? null : paragraph("This plan is for a table that has changed since.", "report-none"), list, picture,
-    rows.length ? make("h3", "", "Places that were considered, best first") : null, rows.length ? table(columns, rows) : null,
-    rows.length ? paragraph(`Off in the worst case: the mean distance to the person's place in ${worst} of what the person may mean. Best for: the share of these whose best place is near.`, "report-note") : null];
+  const picture = isHere && spots.length ? figure(tableFromAbove(scene, spots, 460), REPORT.picture(subject, considered.length > 0, Boolean(map))) : null;
+  const titles = REPORT.candidate, columns = [[REPORT.number, "number"], [titles.left, "number"], [titles.edge, "number"], [titles.verdict, ""], [titles.why, "report-said"], [titles.free, "number"], [titles.off, "number"], [titles.best, "number"]];
+  const rows = considered.map((one, i) => ({ className: one.verdict === "chosen" ? "is-chosen" : "", cells: [i + 1, cm(one.x_m), cm(one.y_m), REPORT.verdicts[one.verdict] ?? one.verdict, sentence(one.reason), cm(one.clearance_m), cm(one.cvar_m), percent(one.probability_best)] }));
+  return [paragraph(old, "report-none"), isHere ? null : paragraph(REPORT.otherTable, "report-none"), list, picture,
+    rows.length ? make("h3", "", REPORT.considered) : null, rows.length ? table(columns, rows) : null,
+    rows.length ? paragraph(REPORT.note(worst), "report-note") : null];
 }
 
 function policy({ policy: made, world, posterior }) {
-  if (!made) return [paragraph("The robot has not decided what to do.")];
+  if (!made) return [paragraph(WORLD.undecided)];
   const has = made.expected_return !== null;
-  const old = posterior && made.revision < posterior.revision ? `This policy is of revision ${made.revision}; the answers are at revision ${posterior.revision}.` : "";
-  const balance = has && made.lambda !== null ? `The average counts ${percent(made.lambda)}, the worst case ${percent(1 - made.lambda)}, ${made.preference_id ? "as the person chose" : "as it was set"}.` : "";
+  const old = posterior && made.revision < posterior.revision ? REPORT.oldPolicy(made.revision, posterior.revision) : "";
+  const balance = has && made.lambda !== null ? REPORT.balance(percent(made.lambda), percent(1 - made.lambda), Boolean(made.preference_id)) : "";
   const fits = has && made.table.length === world.n_states * world.actions.length, { kind, rows, columns } = world.picture;
   const picture = !fits || kind === "none" ? null
-    : kind === "cells" ? figure(drawnAt(660, Math.min(420, Math.max(160, 36 + (624 * rows) / columns)), (svg) => drawGrid(svg, world, made.table, made.visits, null)), "Arrows: what the robot does; thick where it often comes. Dashed rings: where it starts. Green: where it ends.")
+    : kind === "cells" ? figure(drawnAt(660, Math.min(420, Math.max(160, 36 + (624 * rows) / columns)), (svg) => drawGrid(svg, world, made.table, made.visits, null)), REPORT.gridKey)
     : figure(drawnAt(660, 400, (svg) => drawRoad(svg, world, made.table, made.visits, null)), ROAD_KEY);
   return [paragraph(old, "report-none"), paragraph(sentence(made.reason)), has ? paragraph(`${worstCase(made, made.objective, made.alpha)} ${asARule(made, made.objective, made.alpha)}`) : null, paragraph(balance), picture];
 }
@@ -227,33 +211,33 @@ function wants(of) {
     svg.append(element("path", { class: "report-zero", d: "M80 0V14" }), element("path", { class: "report-range", d: `M${x(low).toFixed(1)} 7H${x(high).toFixed(1)}` }), element("circle", { cx: x(mean), cy: 7, r: 3.6 }));
     return svg;
   };
-  const rows = shown.map((w) => ({ cells: [w.name, number(w.mean), `${number(w.low)} to ${number(w.high)}`, bar(w)] }));
-  const rest = of.weights.length > shown.length ? `These ${shown.length} of ${of.weights.length} features weigh most` : "";
-  return section("What it takes the person to want", paragraph(said("What each feature is worth: the mean of the draws, and where nine in ten of them lie", rest)), table([["Feature", ""], ["Mean", "number"], ["Nine in ten between", "number"], ["Left: worth less; right: worth more", ""]], rows));
+  const rows = shown.map((w) => ({ cells: [w.name, number(w.mean), REPORT.range(number(w.low), number(w.high)), bar(w)] })), names = REPORT.weights;
+  const rest = of.weights.length > shown.length ? REPORT.most(shown.length, of.weights.length) : "";
+  return section(REPORT.wants, paragraph(said(REPORT.worth, rest)), table([[names.feature, ""], [names.mean, "number"], [names.range, "number"], [names.bar, ""]], rows));
 }
 
 function receipt(of) {
-  const { judged, policy: made } = of, list = make("dl", "report-list report-receipt");
+  const { judged, policy: made } = of, { names } = RECEIPT, list = make("dl", "report-list report-receipt");
   const add = (name, value) => list.append(make("dt", "", name), make("dd", "", value));
   if (judged && of.isAboutWorld) {
     const lines = [
-      ["least", "Least return", (b) => number(b.least_return.bound)], ["mean", "The same for the best on average", (b) => number(b.least_return_of_mean.bound)], ["loss_bound", "Largest loss", (b) => number(b.loss.bound)],
-      ["share", "Of what choosing at random loses", (b) => percent(b.normalised_loss.bound)], ["chosen_by", "Draws that chose the policy", () => `${made.n_draws}; others judge it`], ["gap", "Another policy may be better by", () => (made.gap === null ? "–" : made.gap.toExponential(1))],
+      ["least", names.least, (b) => number(b.least_return.bound)], ["mean", names.mean, (b) => number(b.least_return_of_mean.bound)], ["loss_bound", names.loss_bound, (b) => number(b.loss.bound)],
+      ["share", names.share, (b) => percent(b.normalised_loss.bound)], ["chosen_by", names.chosen_by, () => RECEIPT.chosenBy(made.n_draws)], ["gap", names.gap, () => (made.gap === null ? "–" : made.gap.toExponential(1))],
     ];
     drawReceipt(list, judged, [...lines, ...COMMON()]);
   } else if (judged) drawReceipt(list, judged);
-  add("Revision of the bound", judged?.revision ?? "no bound");
-  add("Revision of the answers", of.posterior?.revision ?? "–");
-  if (!judged && of.posterior) add("Evidence, SHA-256", of.posterior.evidence_hash);
-  if (of.isAboutWorld) add("World, SHA-256", of.world.hash);
-  return section("What the claim rests on", judged ? null : paragraph(of.isAboutWorld && of.policy ? "The bound on the robot's policy is not there yet." : "There is no bound, so there is no claim."), list);
+  add(REPORT.receiptNames.bound, judged?.revision ?? REPORT.none.bound);
+  add(REPORT.receiptNames.answers, of.posterior?.revision ?? "–");
+  if (!judged && of.posterior) add(names.evidence_hash, of.posterior.evidence_hash);
+  if (of.isAboutWorld) add(REPORT.receiptNames.world, of.world.hash);
+  return section(REPORT.receipt, judged ? null : paragraph(of.isAboutWorld && of.policy ? REPORT.none.judgement : REPORT.none.claim), list);
 }
 
 /** Fills `root` (an empty <article id="report">) with the report of `state` as it is now; `now` is a Date. */
 export function drawReport(root, state, now) {
   const of = read(state);
   const parts = [heading(of, now), progress(of), answers(of), robot(of), wants(of), receipt(of)];
-  root.replaceChildren(...parts.filter(Boolean), make("footer", "", "Made by the operator page from what it knew at that time."));
+  root.replaceChildren(...parts.filter(Boolean), make("footer", "", REPORT.made));
 }
 
 // Some browsers print only one sheet of what lies on top of a page: on paper the report stands in the page itself.

@@ -395,6 +395,84 @@ export const WORDS = {
   },
 };
 
+// ---- the report of a lesson ---------------------------------------------------------------------------------------
+
+/** Says "the person", not "you": whoever reads it need not be the one who taught. What is here without a full stop gets one, and a capital. */
+export const REPORT = {
+  title: DIALOG.report,
+  none: {
+    subject: "Nothing is known yet of what is taught.", look: "No bound has been looked at in this lesson.", answers: "Nothing has been answered.", plan: "The robot has no plan for the table as it is.",
+    bound: "no bound", claim: "There is no bound, so there is no claim.", judgement: "The bound on the robot's policy is not there yet.",
+  },
+  /** What must not be torn apart at the end of a line. */
+  unbroken: (words) => words.replace(/(\d) (?=%|cm\b)|(revision) (?=\d)/g, "$1$2\u00a0"),
+  place: (left, edge) => `${left} from the left, ${edge} from the robot's edge`,
+  where: (name) => `Where the ${name ?? "target"} belongs`,
+  world: (name) => `What to do in the world “${name}”`,
+  lesson: {
+    waiting: "No lesson has begun", asking: "Still learning", taught: "Taught: the robot has learned enough", stopped: "Stopped by the person", gave_up: "The robot gave up asking",
+    paused: "Paused: the robot asks nothing for now", finished: "Finished: the person said that this is enough", unknown: "Where the lesson stands is not known",
+  },
+  because: (state, reason) => `${state}; ${reason}`,
+  facts: { worst: "At worst", goal: "Goal", inForce: "Answers in force", revision: "Revision" },
+  aim: (goal, isReached) => (goal === null ? "No goal is known" : `The goal is ${goal}${isReached === null ? "" : isReached ? ": reached" : ": not reached"}`),
+  nothing: (reason) => `Nothing guarantees how well the robot does: ${reason || "no bound has been computed"}`,
+  loses: (share) => `the robot loses at worst ${share} of what choosing at random loses`,
+  puts: (name, distance) => `the robot puts the ${name ?? "target"} at worst ${distance} from where the person would`,
+  guarantee: (sure, what, share) => `${sure === null ? "By a bound whose receipt is not at hand" : `With ${sure} confidence`}, ${what}${share === null ? "" : `, for ${share} of what the person may mean`}`,
+  claim: (sentence) => `The claim in full: ${sentence}`,
+  late: (bound, now) => `This bound is of revision ${bound}; what was said since, up to revision ${now}, is not in it.`,
+
+  // How the bound fell.
+  progress: "The bound against the goal",
+  courseOfLoss: "What the robot may lose, in % of what choosing at random loses, after each revision; dashed: the goal",
+  courseOfDistance: "How far off the robot may be at worst, in cm, after each revision; dashed: the goal",
+  hollow: (none, all) => `Hollow marks at the top: there was no bound (${none} of ${all} looks)`,
+
+  // What was said.
+  answers: "What was said",
+  count: (active, all) => `${active} of ${all} in force`,
+  newest: (n) => `These are the newest ${n}; earlier ones are not shown.`,
+  number: "No.",
+  columns: { table: "Table", asked: "Asked", answered: "Answered", sure: "How sure", became: "What became of it", by: "By" },
+  asked: { actions: "What to do", preference: "Which of two ways is better", critique: "What is good and what is bad in a way" },
+  askedThere: (world, s) => `What to do ${placeWords(world, s).replace(/^(?!in )/, "in ")}`,
+  unnamed: { question: BAR.question, nothing: "Nothing", place: "A place" },
+  unasked: "(not asked)",
+  kinds: { ...ANSWERS.kinds, pause: "Paused the lesson", start: "Started the lesson" },
+  fate: (isInForce, fate) => (isInForce ? `in force, ${fate}` : fate),
+
+  // What the robot makes of it.
+  robot: "What the robot would do now",
+  isOpen: "A question is open. What the robot would do is left out, so that it does not sway the answer.",
+  oldPlan: (plan, now) => `This plan is of revision ${plan}; the answers are at revision ${now}.`,
+  oldPolicy: (policy, now) => `This policy is of revision ${policy}; the answers are at revision ${now}.`,
+  otherTable: "This plan is for a table that has changed since.",
+  risk: (distance, tail) => `${distance} off on average in ${tail} of what the person may mean`,
+  plan: { takes: "The place it takes", likely: "The most likely place", outcome: "Outcome", may: "May it move", none: "none" },
+  outcomes: {
+    planned: "A motion there is planned", no_free_place: "There is no free place", unreachable: "The arm reaches no free place", no_path: "No collision-free motion was found", no_robot: "There is no robot to move",
+    start_in_collision: "The arm touches something where it is", goal_in_collision: "The arm would touch something at every free place", joints_unknown: "Where the arm is, is not known", outside_limits: "A joint of the arm is outside its limits", unknown: "What became of the plan is not known",
+  },
+  outcome: (outcome, motion_s) => `${outcome}${motion_s === null ? "" : `, in ${motion_s.toFixed(1)} s`}`,
+  mayMove: { yes: "Yes: for this table the bound is below the goal.", no: "No: for this table the bound is not known to be below the goal." },
+  picture: (name, hasNumbers, hasSquare) => `The table from above, the robot's side below. Black: where the robot would put the ${name}.${hasNumbers ? " Numbers: the places below." : ""}${hasSquare ? " Square: the most likely place." : ""}`,
+  considered: "Places that were considered, best first",
+  verdicts: { chosen: "chosen", next_best: "next best", unreachable: "out of reach", no_path: "no way there", blocked: "blocked", unknown: "not known" },
+  candidate: { left: "From the left", edge: "From the robot's edge", verdict: "Verdict", why: "Why", free: "Free space around", off: "Off in the worst case", best: "Best for" },
+  note: (tail) => `Off in the worst case: the mean distance to the person's place in ${tail} of what the person may mean. Best for: the share of these whose best place is near.`,
+  balance: (average, worst, isChosen) => `The average counts ${average}, the worst case ${worst}, ${isChosen ? "as the person chose" : "as it was set"}.`,
+  gridKey: `${WORLD.gridKey} Green: where it ends.`,
+  wants: "What it takes the person to want",
+  worth: "What each feature is worth: the mean of the draws, and where nine in ten of them lie",
+  most: (shown, all) => `These ${shown} of ${all} features weigh most`,
+  weights: { feature: "Feature", mean: "Mean", range: "Nine in ten between", bar: "Left: worth less; right: worth more" },
+  range: (low, high) => `${low} to ${high}`,
+  receipt: "What the claim rests on",
+  made: "Made by the operator page from what it knew at that time.",
+  receiptNames: { bound: "Revision of the bound", answers: "Revision of the answers", world: "World, SHA-256" },
+};
+
 // ---- the words in index.html --------------------------------------------------------------------------------------
 
 const GROUPS = { bar: BAR, states: STATES, link: LINK, session: SESSION, dialog: DIALOG, question: QUESTION, gauge: GAUGE, answer: ANSWER, answers: ANSWERS, progress: PROGRESS, table: TABLE, carry: CARRY, world: WORLD, weights: WEIGHTS, caution: CAUTION, ask: WORDS };
@@ -404,6 +482,8 @@ const ATTRIBUTES = { "data-words-label": "aria-label", "data-words-title": "titl
 export function fillWords() {
   const said = (path) => { const [group, name] = path.split("."); return GROUPS[group][name]; };
   document.documentElement.lang = LANGUAGE;
+  // Style sheets take words only this way: for the head of each sheet of the report on paper.
+  document.documentElement.style.setProperty("--report-title", JSON.stringify(REPORT.title));
   for (const node of document.querySelectorAll("[data-words]")) if (node.textContent !== said(node.dataset.words)) node.textContent = said(node.dataset.words);
   for (const [from, to] of Object.entries(ATTRIBUTES)) for (const node of document.querySelectorAll(`[${from}]`)) node.setAttribute(to, said(node.getAttribute(from)));
 }
