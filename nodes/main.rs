@@ -12,8 +12,9 @@ use std::process::ExitCode;
 const COMMIT: &str = env!("APPRENTICE_COMMIT");
 
 /// Commands that are no nodes: name and purpose.
-const COMMANDS: [(&str, &str); 11] = [
+const COMMANDS: [(&str, &str); 12] = [
     ("bringup", "Starts, watches, restarts and stops the nodes of a lesson; what `apprentice` alone does"),
+    ("setting", "A whole table to set: lessons one after another, each thing in the way of the next"),
     ("replay", "Computes a recorded session again, and compares every bit with --verify"),
     ("bag", "What is in a bag (info), and making a broken one whole (recover)"),
     ("check", "Reads parameter files as every node would"),
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
 fn dispatch(command: &str, rest: &[String]) -> ExitCode {
     match command {
         "bringup" => lesson(rest),
+        "setting" => parsed("apprentice setting", rest, table_setting::run),
         "replay" => parsed("apprentice replay", rest, replay::run),
         "bag" => parsed("apprentice bag", rest, bag::run),
         "check" => parsed("apprentice check", rest, check::run),

@@ -17,6 +17,7 @@ mod recorded;
 mod replayed;
 mod seated;
 mod session_controls;
+mod setting;
 mod suite;
 mod tabular;
 mod taught;

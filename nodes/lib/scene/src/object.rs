@@ -42,7 +42,7 @@ impl Shape {
     }
 
     /// The extents, metres; the check of a scene wants each of them positive and finite.
-    pub(crate) fn extents_m(&self) -> [f64; 3] {
+    pub fn extents_m(&self) -> [f64; 3] {
         match *self {
             Self::Cylinder { radius_m, height_m } => [2.0 * radius_m, 2.0 * radius_m, height_m],
             Self::Box { width_m, depth_m, height_m } => [width_m, depth_m, height_m],
