@@ -4,12 +4,16 @@
 //! Prints a table, and leaves the same as JSON under `target/tmp/end_to_end/figures`. Nothing here passes or fails.
 
 #[allow(dead_code, reason = "the tests use all of it")]
+#[path = "../end_to_end/chromium.rs"]
+mod chromium;
+#[allow(dead_code, reason = "the tests use all of it")]
 #[path = "../end_to_end/recorded.rs"]
 mod recorded;
 #[allow(dead_code, reason = "the tests use all of it")]
 #[path = "../end_to_end/suite.rs"]
 mod suite;
 
+mod drag;
 mod flood;
 mod idle;
 mod lesson;
@@ -34,6 +38,7 @@ fn main() {
         "flowers": of("flowers", &|| lesson::measure("flowers")),
         "spoon": of("spoon", &|| lesson::measure("spoon")),
         "page": of("page", &page::measure),
+        "drag": of("drag", &drag::measure),
         "recorder": of("recorder", &flood::measure),
     });
     show("", &figures);
