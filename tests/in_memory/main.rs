@@ -7,6 +7,7 @@ mod graph;
 mod graph_file;
 mod log_lines;
 mod malformed;
+mod moved;
 mod policies;
 mod row;
 mod rviz;

@@ -355,7 +355,7 @@ uint8 ACTIONS=3
 uint8 PREFERENCE=4
 uint8 CRITIQUE=5
 uint8 HISTORY=6
-uint8 SCENE=7                    # a table, when something else had named the weights before it
+uint8 SCENE=7                    # a table, when something else had named the weights before it, or things on it were moved
 uint8 WORLD=8                    # a world, when something else had named the weights before it
 
 uint64 sequence                  # 1, 2, …; the revision of the posterior that takes it in
@@ -640,7 +640,7 @@ string evidence_hash             # SHA-256 over the evidence in force, hex
 uint64 n_demonstrations          # placements in force
 uint64 n_answers                 # questions of this lesson answered or skipped so far, taken back or not
 uint8 wish                       # about the lesson itself, of what has not been taken back: stop before finish before the newest of the others
-TableScene task                  # the table that the lesson is about; without objects and extent when it is about none
+TableScene task                  # the table that the lesson is about, as it stands now; without objects and extent when it is about none
 TableScene scene                 # of the newest placement in force, else the task
 WorldReference world             # the world that the lesson is about; empty when it is about none
 uint8 outcome

@@ -260,7 +260,7 @@ impl EvidenceRecord {
     pub const CRITIQUE: u8 = 5;
     /// The constant `HISTORY`.
     pub const HISTORY: u8 = 6;
-    /// a table, when something else had named the weights before it
+    /// a table, when something else had named the weights before it, or things on it were moved
     pub const SCENE: u8 = 7;
     /// a world, when something else had named the weights before it
     pub const WORLD: u8 = 8;
@@ -883,7 +883,7 @@ pub struct Posterior {
     pub n_answers: u64,
     /// about the lesson itself, of what has not been taken back: stop before finish before the newest of the others (`uint8`)
     pub wish: u8,
-    /// the table that the lesson is about; without objects and extent when it is about none (`TableScene`)
+    /// the table that the lesson is about, as it stands now; without objects and extent when it is about none (`TableScene`)
     pub task: super::msg::TableScene,
     /// of the newest placement in force, else the task (`TableScene`)
     pub scene: super::msg::TableScene,

@@ -9,19 +9,15 @@ use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::control_msgs::FollowJointTrajectory;
 use apprentice_msgs::moveit_msgs::PlanningScene;
 use apprentice_msgs::msg::{
-    ArmModel, ArmMotion, ArmPose, LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, SceneObject,
-    TableScene,
+    ArmModel, ArmMotion, ArmPose, LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, TableScene,
 };
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::visualization_msgs::MarkerArray;
 use bus::{ActionEvent, ActionRequest};
-use exchange::{check_posterior, is_about_a_table, is_about_scene, scene_from_message};
+use exchange::{check_posterior, is_about_a_table, is_about_scene, scene_from_message, stands_as};
 use placement::{LossBatch, MAP_SIDE, Manipulator, Planner};
 use scene::Scene;
-
-/// Perception is this exact: an object that moved less stands where it stood, metres.
-const SAME_PLACE_M: f64 = 0.01;
 
 /// What reaches the node.
 #[derive(Debug, Clone)]
@@ -425,22 +421,9 @@ pub(crate) fn deeds(deeds: Vec<Deed>) -> Vec<Output> {
     deeds.into_iter().map(Output::Deed).collect()
 }
 
-/// Whether a table is the one that the lesson, and so the bound, is about: the same things, each within 1 cm.
+/// Whether a table is the one that the lesson, and so the bound, is about.
 pub fn is_task(scene: &TableScene, posterior: &Posterior) -> bool {
     stands_as(scene, &posterior.task)
-}
-
-/// Whether two tables are the same for a motion: the same things, each within 1 cm.
-fn stands_as(scene: &TableScene, task: &TableScene) -> bool {
-    let near = |a: &SceneObject, b: &SceneObject| {
-        let (p, q) = (&a.pose.position, &b.pose.position);
-        a.id == b.id && a.shape == b.shape && (p.x - q.x).hypot(p.y - q.y) <= SAME_PLACE_M
-    };
-    scene.objects.len() == task.objects.len()
-        && scene.objects.iter().zip(&task.objects).all(|(a, b)| near(a, b))
-        && scene.target.id == task.target.id
-        && scene.width_m == task.width_m
-        && scene.depth_m == task.depth_m
 }
 
 /// Whether two messages show the same table; perception stamps each anew.

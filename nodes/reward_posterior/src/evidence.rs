@@ -24,6 +24,8 @@ enum Beginning {
 pub struct Evidence {
     weights: Weights,
     beginning: Option<Beginning>,
+    /// The table that the lesson began with, before anything on it was moved.
+    first_task: Option<TableScene>,
     task: Option<(TableScene, Scene)>,
     world: Option<Arc<World>>,
     offered: Option<Arc<World>>,
@@ -58,7 +60,8 @@ impl Evidence {
     /// # Errors
     /// A scene that cannot be used.
     pub fn begin_with_table(&mut self, message: TableScene) -> Result<(), ExchangeError> {
-        self.set_task(message)?;
+        self.set_task(message.clone())?;
+        self.first_task = Some(message);
         self.beginning = Some(Beginning::Table);
         Ok(())
     }
@@ -167,6 +170,7 @@ impl Evidence {
         Self {
             weights: self.weights.clone(),
             beginning: self.beginning,
+            first_task: self.first_task.clone(),
             task: self.task.clone(),
             world: self.world.clone(),
             records,
@@ -253,10 +257,9 @@ impl Evidence {
     /// The log of everything accepted.
     pub fn log(&self) -> EvidenceLog {
         let of = |beginning| self.beginning == Some(beginning);
-        let task = self.task.as_ref().filter(|_| of(Beginning::Table)).map(|(message, _)| message.clone());
         EvidenceLog {
             header: self.header(),
-            task: task.unwrap_or_default(),
+            task: self.first_task.clone().unwrap_or_default(),
             world: if of(Beginning::World) { self.world_reference() } else { WorldReference::default() },
             records: self.records.clone(),
         }

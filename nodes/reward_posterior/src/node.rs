@@ -88,6 +88,8 @@ pub struct RewardPosterior {
     previewed: Option<u64>,
     /// What was said last of a table or a world that cannot be used: they come again and again.
     pub(crate) told: Option<String>,
+    /// The table as it is seen now, where that is not the one that the lesson is about, and for how many ticks.
+    pub(crate) elsewhere: Option<(TableScene, u32)>,
     ticks: u32,
 }
 
@@ -106,6 +108,7 @@ impl RewardPosterior {
             newest: None,
             previewed: None,
             told: None,
+            elsewhere: None,
             ticks: 0,
         }
     }
@@ -217,6 +220,11 @@ impl RewardPosterior {
         }
     }
 
+    /// What was asked before is asked no more.
+    pub(crate) fn close_questions(&mut self) {
+        (self.query, self.world_query) = (None, None);
+    }
+
     /// Judges everything that waits anew.
     pub(crate) fn look_again(&mut self) -> Vec<Output> {
         let waiting = self.waiting.take();
@@ -241,6 +249,7 @@ impl RewardPosterior {
         for piece in self.waiting.tick() {
             outputs.extend(self.give_up(&piece));
         }
+        outputs.extend(self.stood_still());
         self.ticks += 1;
         if f64::from(self.ticks) >= self.settings.republish_period_s {
             self.ticks = 0;
@@ -263,7 +272,7 @@ impl RewardPosterior {
                 let revision = record.sequence;
                 let journal = Entry::Record(record.clone()).to_bytes();
                 self.evidence.append(*record).expect("it was checked just now");
-                (self.query, self.world_query) = (None, None);
+                self.close_questions();
                 vec![
                     Output::Journal(journal),
                     receipt(EvidenceReceipt::ACCEPTED, String::new(), revision),

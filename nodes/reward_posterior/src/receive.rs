@@ -242,7 +242,8 @@ fn texts(texts: &[&str]) -> Result<(), Verdict> {
     }
 }
 
-fn same_features(evidence: &Evidence, scene: &Scene) -> Result<(), Verdict> {
+/// Whether a table has the features that this lesson's weights are about.
+pub(crate) fn same_features(evidence: &Evidence, scene: &Scene) -> Result<(), Verdict> {
     let Some((_, task)) = evidence.task() else {
         let n = Rbf::new(scene).n();
         return evidence

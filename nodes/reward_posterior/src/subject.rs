@@ -1,30 +1,69 @@
-//! What a lesson is about: its table and its world, each the first that can be used.
+//! What a lesson is about: its table and its world, each the first that can be used; and its table anew, when things on it were
+//! moved.
 
 use crate::journal::{Entry, MAX_FRAME};
 use crate::node::{Output, RewardPosterior};
+use crate::receive::{MAX_BYTES, Verdict, same_features};
 use apprentice_msgs::msg::{EvidenceRecord, TableScene, TabularWorld};
-use exchange::{MAX_ID, scene_from_message, world_from_message, world_hash};
-use scene::Rbf;
+use exchange::{MAX_ID, scene_from_message, stands_as, world_from_message, world_hash};
+use scene::{Rbf, Scene};
+
+/// Things that were moved have to stand still for so many seconds before they count.
+const STILL_TICKS: u32 = 2;
 
 impl RewardPosterior {
     pub(crate) fn scene(&mut self, scene: TableScene) -> Vec<Output> {
-        if self.evidence.task().is_some() {
-            return Vec::new();
-        }
         let checked = match scene_from_message(&scene) {
             Ok(checked) => checked,
             Err(error) => return self.tell(format!("the scene is ignored: {error}")),
         };
+        if self.evidence.task().is_some() {
+            return self.moved(scene, &checked);
+        }
         if let Err(reason) = self.evidence.weights().fit(Rbf::new(&checked).n()) {
             return self.tell(format!("the scene '{}' is ignored: {reason}", checked.id));
         }
-        let entry = if self.evidence.is_blank() {
-            Entry::Task(Box::new(scene))
-        } else {
-            let sequence = self.evidence.revision() + 1;
-            let kind = EvidenceRecord::SCENE;
-            Entry::Record(Box::new(EvidenceRecord { sequence, kind, scene: vec![scene], ..EvidenceRecord::default() }))
+        let entry = if self.evidence.is_blank() { Entry::Task(Box::new(scene)) } else { self.table_record(scene) };
+        self.begin(vec![entry])
+    }
+
+    /// A table as an accepted event.
+    fn table_record(&self, scene: TableScene) -> Entry {
+        let (sequence, kind) = (self.evidence.revision() + 1, EvidenceRecord::SCENE);
+        Entry::Record(Box::new(EvidenceRecord { sequence, kind, scene: vec![scene], ..EvidenceRecord::default() }))
+    }
+
+    /// The table is seen again. What stands elsewhere than it did is noted, and counts once it stands still.
+    fn moved(&mut self, scene: TableScene, checked: &Scene) -> Vec<Output> {
+        let Some((_, task)) = self.evidence.task() else { return Vec::new() };
+        if task.stands_as(checked) {
+            self.elsewhere = None;
+            return Vec::new();
+        }
+        if let Err(Verdict::Refuse(reason) | Verdict::Unknown(reason)) = same_features(&self.evidence, checked) {
+            self.elsewhere = None;
+            return self.tell(format!("the table is not what the lesson is about, which goes on about that: {reason}"));
+        }
+        let stood = match &self.elsewhere {
+            Some((seen, ticks)) if stands_as(seen, &scene) => *ticks,
+            _ => 0,
         };
+        self.elsewhere = Some((scene, stood));
+        Vec::new()
+    }
+
+    /// A second has passed. Draws do not depend on where things stand; the bound on the table does, and so does what to ask.
+    pub(crate) fn stood_still(&mut self) -> Vec<Output> {
+        let Some((scene, ticks)) = self.elsewhere.take() else { return Vec::new() };
+        if ticks + 1 < STILL_TICKS {
+            self.elsewhere = Some((scene, ticks + 1));
+            return Vec::new();
+        }
+        if self.evidence.n_bytes() > MAX_BYTES {
+            return self.tell("things on the table were moved, but the session holds all that it takes".into());
+        }
+        let entry = self.table_record(scene);
+        self.close_questions();
         self.begin(vec![entry])
     }
 

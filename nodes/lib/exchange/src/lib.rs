@@ -25,6 +25,7 @@ pub use robust_policy::{
 };
 pub use table::{
     ExchangeError, object_from_message, point_from_message, point_to_message, scene_from_message, scene_to_message,
+    stands_as,
 };
 pub use text::{MAX_ID, TextError};
 pub use world::{Picture, World, WorldError, world_from_message, world_hash, world_to_message};

@@ -55,6 +55,15 @@ pub enum ExchangeError {
     },
 }
 
+/// Whether two messages show the same table but for what perception may be off: see [`Scene::stands_as`]. Not when one of them
+/// cannot be used.
+pub fn stands_as(a: &TableScene, b: &TableScene) -> bool {
+    match (scene_from_message(a), scene_from_message(b)) {
+        (Ok(a), Ok(b)) => a.stands_as(&b),
+        _ => false,
+    }
+}
+
 /// The checked scene of a message.
 pub fn scene_from_message(message: &TableScene) -> Result<Scene, ExchangeError> {
     if message.objects.len() > MAX_OBJECTS {

@@ -1,6 +1,6 @@
 //! A table with things on it, checked, and where on it the target cannot be.
 
-use crate::{Object, Point};
+use crate::{Object, Point, Shape};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -8,6 +8,9 @@ use thiserror::Error;
 pub const MAX_OBJECTS: usize = 64;
 const MAX_NAME: usize = 128;
 const MAX_TABLE_M: f64 = 100.0;
+/// What has moved less stands where it stood.
+const SAME_PLACE_M: f64 = 0.01;
+const SAME_YAW_RAD: f64 = 0.1;
 
 /// What stands on a table, and what is to be placed on it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -147,6 +150,23 @@ impl Scene {
     /// Whether a point lies on the table, edges counted.
     pub fn is_on_table(&self, at_m: Point) -> bool {
         (0.0..=self.width_m).contains(&at_m.x) && (0.0..=self.depth_m).contains(&at_m.y)
+    }
+
+    /// Whether another table is the same but for what perception may be off: the same things, each within a centimetre and,
+    /// unless it is round, a tenth of a radian.
+    pub fn stands_as(&self, other: &Self) -> bool {
+        let near = |(a, b): (&Object, &Object)| {
+            let turned_rad = a.yaw_rad - b.yaw_rad;
+            let is_round = matches!(a.shape, Shape::Cylinder { .. });
+            a.id == b.id
+                && a.shape == b.shape
+                && a.position_m.distance(b.position_m) <= SAME_PLACE_M
+                && (is_round || turned_rad.sin().atan2(turned_rad.cos()).abs() <= SAME_YAW_RAD)
+        };
+        self.objects.len() == other.objects.len()
+            && self.objects.iter().zip(&other.objects).all(near)
+            && self.target.id == other.target.id
+            && (self.width_m, self.depth_m) == (other.width_m, other.depth_m)
     }
 
     /// From metres to coordinates in which the table is the unit square.
