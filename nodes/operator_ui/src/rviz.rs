@@ -117,7 +117,8 @@ impl Handles {
     pub fn take(&mut self, asked: Asked<'_>, feedback: &Feedback, id: &str) -> Result<Option<FromPage>, String> {
         let is_press = feedback.event_type == Feedback::BUTTON_CLICK;
         let is_menu = feedback.event_type == Feedback::MENU_SELECT;
-        let Some(what) = feedback.marker_name.strip_prefix(asked.id()).and_then(|rest| rest.strip_prefix('/')) else {
+        let of_question = || feedback.marker_name.strip_prefix(asked.id())?.strip_prefix('/');
+        let Some(what) = of_question().filter(|_| !matches!(asked, Asked::Nothing)) else {
             // Only what would have said something is worth a word.
             return if is_press || is_menu { Err("that question is no longer open".into()) } else { Ok(None) };
         };

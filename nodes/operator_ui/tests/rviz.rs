@@ -121,6 +121,14 @@ fn what_was_meant_for_one_question_never_answers_the_next() {
 }
 
 #[test]
+fn where_nothing_is_asked_nothing_is_answered() {
+    for name in ["/stop", "/skip", "stop", "/target", ""] {
+        let sent = press(&mut Table::new(), 1, name);
+        assert!(sent.responses.is_empty() && sent.demonstrations.is_empty(), "{name:?}");
+    }
+}
+
+#[test]
 fn a_place_in_another_frame_is_not_taken() {
     let mut table = Table::asking(3);
     let pose = Pose { position: Point { x: 0.5, y: 0.45, z: 0.0 }, ..Pose::default() };

@@ -1,7 +1,7 @@
 """Pinocchio and Coal on the arm's benchmark: CPU microseconds per configuration, and what they found.
 
 Reads a request as JSON from standard input: {"urdf", "package_dirs", "joints": [NAME], "configurations": [[q]], "pairs": [[LINK, LINK]],
-"objects": [{"shape": "box" | "cylinder" | "ball", "size": [..], "at": [x, y, z]}], "moving": [LINK], "seconds"}.
+"objects": [{"shape": "box" | "cylinder" | "ball", "size": [..], "at": [x, y, z], "yaw"}], "moving": [LINK], "seconds"}.
 """
 
 import json
@@ -38,7 +38,20 @@ def shape(thing):
     return coal.Sphere(size[0])
 
 
-def geometry(model, request, hulls):
+def placement(thing):
+    return pin.SE3(pin.rpy.rpyToMatrix(0.0, 0.0, thing["yaw"]), np.array(thing["at"], dtype=float))
+
+
+def solids_of_links(model, geometry):
+    """Indices of the solids of each link, by its name."""
+    of_link = {}
+    for i, thing in enumerate(geometry.geometryObjects):
+        of_link.setdefault(model.frames[thing.parentFrame].name, []).append(i)
+    return of_link
+
+
+def robot_geometry(model, request, hulls):
+    """The robot's solids and the pairs of them that are tested."""
     kind = pin.GeometryType.COLLISION
     geometry = pin.buildGeomFromUrdf(model, request["urdf"], kind, package_dirs=request["package_dirs"])
     if hulls:
@@ -46,19 +59,26 @@ def geometry(model, request, hulls):
             if isinstance(thing.geometry, coal.BVHModelBase):
                 thing.geometry.buildConvexHull(True, "Qt")
                 thing.geometry = thing.geometry.convex
-    of_link = {}
-    for i, thing in enumerate(geometry.geometryObjects):
-        of_link.setdefault(model.frames[thing.parentFrame].name, []).append(i)
+    of_link = solids_of_links(model, geometry)
     for a, b in request["pairs"]:
         for i in of_link[a]:
             for j in of_link[b]:
                 geometry.addCollisionPair(pin.CollisionPair(i, j))
-    moving = [i for link in request["moving"] for i in of_link[link]]
-    for n, thing in enumerate(request["objects"]):
-        at = pin.SE3(np.eye(3), np.array(thing["at"], dtype=float))
-        new = geometry.addGeometryObject(pin.GeometryObject(f"object {n}", 0, at, shape(thing)))
-        for i in moving:
+    return geometry
+
+
+def add_objects(geometry, objects, against):
+    """Adds things that stand still, to be tested against the solids of the given indices."""
+    for n, thing in enumerate(objects):
+        new = geometry.addGeometryObject(pin.GeometryObject(f"object {n}", 0, placement(thing), shape(thing)))
+        for i in against:
             geometry.addCollisionPair(pin.CollisionPair(i, new))
+
+
+def geometry(model, request, hulls):
+    geometry = robot_geometry(model, request, hulls)
+    of_link = solids_of_links(model, geometry)
+    add_objects(geometry, request["objects"], [i for link in request["moving"] for i in of_link[link]])
     return geometry
 
 

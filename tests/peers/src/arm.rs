@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use arm::{
     Chain, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Obstacle, ReadOptions, Robot,
-    Solid, SweepSettings, World, solve,
+    Solid, SweepSettings, Translation3, World, about_z, solve,
 };
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use robot_files::{Folders, read_text};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::clock::timed;
@@ -79,11 +80,15 @@ struct OfShapes {
 }
 
 /// An object on the table, for both sides.
-#[derive(Debug, Serialize)]
-struct Object {
-    shape: &'static str,
-    size: Vec<f64>,
-    at: [f64; 3],
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Object {
+    /// `box` (all sides), `cylinder` (radius, height) or `ball` (radius).
+    pub shape: &'static str,
+    pub size: Vec<f64>,
+    /// Its middle.
+    pub at: [f64; 3],
+    /// About the vertical.
+    pub yaw: f64,
 }
 
 /// Measures both sides on the same robot, objects, pairs and configurations.
@@ -100,7 +105,7 @@ pub fn compare(seconds: f64, seed: u64) -> Result<Compared, PeersError> {
     let world = world(&objects);
     let configurations: Vec<Vec<f64>> = (0..N_CONFIGURATIONS).map(|_| draw(&robot, &mut rng)).collect();
     let request = request(&share, &robot, &model, &objects, &configurations, seconds);
-    let peers = run(&python, &request)?;
+    let peers: Report = run(&python, "arm_pinocchio.py", &request, "the report of Pinocchio's run")?;
 
     let mut checker = Checker::new(Arc::clone(&robot), Arc::clone(&model));
     let free: Vec<bool> = configurations.iter().map(|q| checker.is_free(q, &world, 0.0)).collect();
@@ -242,7 +247,7 @@ fn nearby(robot: &Robot, q: &[f64], rng: &mut ChaCha8Rng) -> Vec<f64> {
 
 /// Boxes, cylinders and balls of the size of tableware in a ring around the arm, and the table.
 fn objects(rng: &mut ChaCha8Rng) -> Vec<Object> {
-    let mut objects = vec![Object { shape: "box", size: vec![1.6, 1.6, 0.04], at: [0.0, 0.0, -0.05] }];
+    let mut objects = vec![Object { shape: "box", size: vec![1.6, 1.6, 0.04], at: [0.0, 0.0, -0.05], yaw: 0.0 }];
     while objects.len() < N_OBJECTS {
         let (angle, far) = (std::f64::consts::TAU * uniform(rng), 0.35 + 0.4 * uniform(rng));
         let (a, b) = (0.04 + 0.08 * uniform(rng), 0.08 + 0.2 * uniform(rng));
@@ -252,24 +257,28 @@ fn objects(rng: &mut ChaCha8Rng) -> Vec<Object> {
             _ => ("ball", vec![0.6 * a], 1.2 * a),
         };
         let at = [far * libm::cos(angle), far * libm::sin(angle), -0.03 + 0.5 * height];
-        objects.push(Object { shape, size, at });
+        objects.push(Object { shape, size, at, yaw: 0.0 });
     }
     objects
 }
 
-fn world(objects: &[Object]) -> World {
+pub(crate) fn world(objects: &[Object]) -> World {
     let mut world = World::new();
     for (i, object) in objects.iter().enumerate() {
-        let size = &object.size;
-        let solid = match object.shape {
-            "box" => Solid::Box { half_extents: [0.5 * size[0], 0.5 * size[1], 0.5 * size[2]] },
-            "cylinder" => Solid::Cylinder { radius: size[0], half_length: 0.5 * size[1] },
-            _ => Solid::Ball { radius: size[0] },
-        };
         let [x, y, z] = object.at;
-        world.add(Obstacle { name: format!("object {i}"), solid, root_from_solid: Isometry3::translation(x, y, z) });
+        let root_from_solid = Isometry3::from_parts(Translation3::new(x, y, z), about_z(object.yaw));
+        world.add(Obstacle { name: format!("object {i}"), solid: solid(object), root_from_solid });
     }
     world
+}
+
+pub(crate) fn solid(object: &Object) -> Solid {
+    let size = &object.size;
+    match object.shape {
+        "box" => Solid::Box { half_extents: [0.5 * size[0], 0.5 * size[1], 0.5 * size[2]] },
+        "cylinder" => Solid::Cylinder { radius: size[0], half_length: 0.5 * size[1] },
+        _ => Solid::Ball { radius: size[0] },
+    }
 }
 
 fn request(
@@ -280,23 +289,36 @@ fn request(
     configurations: &[Vec<f64>],
     seconds: f64,
 ) -> serde_json::Value {
+    let positions: Vec<Vec<f64>> = configurations.iter().map(|q| positions(robot, q)).collect();
+    let mut request = described(share, robot, model);
+    request["configurations"] = serde_json::json!(positions);
+    request["objects"] = serde_json::json!(objects);
+    request["seconds"] = seconds.into();
+    request
+}
+
+/// The Panda as the Python programs take it: file, joints that move, and what is tested for collisions.
+pub(crate) fn described(share: &Path, robot: &Robot, model: &CollisionModel) -> serde_json::Value {
     let name = |link: usize| robot.links[link].name.as_str();
     let groups = robot.rigid_groups();
     let moving: Vec<&str> =
         (0..robot.links.len()).filter(|&l| groups[l] != 0 && !robot.links[l].solids.is_empty()).map(name).collect();
-    let joints: Vec<&arm::Joint> = robot.joints.iter().filter(|joint| joint.kind != arm::JointKind::Fixed).collect();
-    let positions: Vec<Vec<f64>> =
-        configurations.iter().map(|q| joints.iter().map(|joint| joint.position(q)).collect()).collect();
     serde_json::json!({
         "urdf": share.join("example-robot-data/robots").join(PANDA.0),
         "package_dirs": [share],
-        "joints": joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
-        "configurations": positions,
+        "joints": moving_joints(robot).map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
         "pairs": model.link_pairs().map(|(a, b)| [name(a), name(b)]).collect::<Vec<_>>(),
         "moving": moving,
-        "objects": objects,
-        "seconds": seconds,
     })
+}
+
+fn moving_joints(robot: &Robot) -> impl Iterator<Item = &arm::Joint> {
+    robot.joints.iter().filter(|joint| joint.kind != arm::JointKind::Fixed)
+}
+
+/// Where each of the joints that move is, those that mimic another among them.
+pub(crate) fn positions(robot: &Robot, q: &[f64]) -> Vec<f64> {
+    moving_joints(robot).map(|joint| joint.position(q)).collect()
 }
 
 pub(crate) fn read(share: &Path, file: &str) -> Result<Robot, PeersError> {
@@ -329,8 +351,14 @@ pub(crate) fn share(python: &Path) -> Result<PathBuf, PeersError> {
     }
 }
 
-fn run(python: &Path, request: &serde_json::Value) -> Result<Report, PeersError> {
-    let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("python/arm_pinocchio.py");
+/// Runs one of our Python programs on a request and reads its report; `what` names the report in an error.
+pub(crate) fn run<T: DeserializeOwned>(
+    python: &Path,
+    program: &str,
+    request: &serde_json::Value,
+    what: &'static str,
+) -> Result<T, PeersError> {
+    let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("python").join(program);
     let failed = |source| PeersError::NoPython { python: python.to_owned(), source };
     let mut child = Command::new(python)
         .arg(&script)
@@ -347,6 +375,5 @@ fn run(python: &Path, request: &serde_json::Value) -> Result<Report, PeersError>
     if !output.status.success() {
         return Err(PeersError::Script { script, status: output.status });
     }
-    serde_json::from_slice(&output.stdout)
-        .map_err(|source| PeersError::Json { what: "the report of Pinocchio's run", source })
+    serde_json::from_slice(&output.stdout).map_err(|source| PeersError::Json { what, source })
 }

@@ -16,6 +16,11 @@ pub fn timed_by_the_wall<T>(work: impl FnOnce() -> T) -> (T, f64) {
     (outcome, seconds(ClockId::Monotonic) - start)
 }
 
+/// CPU seconds of this process until now.
+pub fn cpu_seconds() -> f64 {
+    seconds(ClockId::ProcessCPUTime)
+}
+
 fn seconds(clock: ClockId) -> f64 {
     let now = clock_gettime(clock);
     now.tv_sec as f64 + now.tv_nsec as f64 * 1e-9

@@ -9,14 +9,17 @@ mod clutter;
 mod effective;
 mod error;
 mod highs;
+mod joint_space;
 mod l2_walk;
 mod large_world;
 mod memory;
 mod numpyro;
+mod ompl;
 mod plans;
 mod preference_data;
 mod preferences;
 mod published_walk;
+mod transfers;
 mod value_iteration;
 
 use std::path::PathBuf;
@@ -58,6 +61,8 @@ enum What {
     Arm,
     /// Placements in 200 cluttered scenes with a Panda and with our own arm: success, time, length.
     Plans,
+    /// Motions of a Panda among 8 objects: ours and OMPL's RRT-Connect (set up by tests/peers/setup) with Coal's checks.
+    Ompl,
     /// How long a bound from 10,000 draws takes.
     Bound,
     /// Robust policies: ours and SciPy's HiGHS (set up by tests/peers/setup) on the same linear programs.
@@ -86,6 +91,7 @@ fn run(arguments: &Arguments) -> Result<(), PeersError> {
         What::LargeWorld => serde_json::to_value(large_world::measure(seed)?),
         What::Arm => serde_json::to_value(arm::compare(seconds, seed)?),
         What::Plans => serde_json::to_value(plans::measure(seed)?),
+        What::Ompl => serde_json::to_value(ompl::compare(seconds, seed)?),
         What::Bound => serde_json::to_value(bound::measure(seconds, seed)?),
         What::Broil => serde_json::to_value(broil::compare(seed)?),
     }
