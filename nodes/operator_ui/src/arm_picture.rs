@@ -123,7 +123,10 @@ fn part_view(part: &ArmPart) -> Result<PartView, String> {
         ArmPart::MESH => {
             let n = part.points.len() / 3;
             let known = |corner: &u32| usize::try_from(*corner).is_ok_and(|corner| corner < n);
-            if part.points.len() % 3 != 0 || part.triangles.len() % 3 != 0 || !part.triangles.iter().all(known) {
+            if !part.points.len().is_multiple_of(3)
+                || !part.triangles.len().is_multiple_of(3)
+                || !part.triangles.iter().all(known)
+            {
                 return Err(format!("the triangles of a mesh with {n} corners do not fit"));
             }
             // A convex mesh of n corners has 2 n - 4 triangles.
@@ -146,7 +149,7 @@ fn motion_view(message: &ArmMotion) -> Result<ArmMotionView, String> {
         ));
     }
     let each = message.poses.len().checked_div(n).unwrap_or(0);
-    if each % POSE != 0 || each * n != message.poses.len() || each > POSE * MAX_LINKS {
+    if !each.is_multiple_of(POSE) || each * n != message.poses.len() || each > POSE * MAX_LINKS {
         return Err(format!("{} numbers are no poses at {n} moments", message.poses.len()));
     }
     let target = object_from_message(&message.target).ok().map(|object| object_view(&object));

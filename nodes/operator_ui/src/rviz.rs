@@ -122,11 +122,9 @@ impl Handles {
             // Only what would have said something is worth a word.
             return if is_press || is_menu { Err("that question is no longer open".into()) } else { Ok(None) };
         };
-        if let (Asked::Table(query, scene), "target") = (asked, what) {
-            if feedback.event_type == Feedback::MOUSE_UP {
-                self.put(query, scene, feedback);
-                return Ok(None);
-            }
+        if let (Asked::Table(query, scene), "target", Feedback::MOUSE_UP) = (asked, what, feedback.event_type) {
+            self.put(query, scene, feedback);
+            return Ok(None);
         }
         if !is_press && !is_menu {
             return Ok(None);

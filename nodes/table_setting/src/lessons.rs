@@ -134,7 +134,7 @@ mod tests {
         let files = Files::of(folder.path(), &lesson);
         assert_eq!(files.session, folder.path().join("2-___tea_cup"));
         assert_eq!(ending(&files), None);
-        let mut of = |state: &str, placement: &str| {
+        let of = |state: &str, placement: &str| {
             let text = format!(
                 "{{\"state\":\"{state}\",\"why\":\"w\",\"questions_asked\":3,\"last_bound_m\":0.05,\"placement_m\":{placement}}}"
             );
