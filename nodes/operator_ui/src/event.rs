@@ -81,7 +81,7 @@ pub struct Recorded {
 pub struct Told {
     /// For this page; `None`: for all.
     pub to: Option<PageId>,
-    /// JSON of a [`ToPage`].
+    /// JSON of a [`ToPage`](crate::protocol::ToPage).
     pub text: String,
 }
 
