@@ -18,7 +18,7 @@ const AT_ONCE: usize = 3;
 const OUTBOX: &str = "JSON.parse(sessionStorage.getItem('apprentice.outbox') ?? '[]').length";
 /// The page says why the answer was not sent, and the same question waits once more.
 const ASKED_AGAIN: &str = "document.getElementById('hint').dataset.tone === 'bad' \
-                           && !document.getElementById('submit').disabled && !document.getElementById('skip').disabled";
+                           && !document.getElementById('skip').disabled";
 
 /// A port that is free now; the page's address stays the same over a restart.
 fn free_port() -> u16 {
@@ -56,6 +56,7 @@ fn counts(page: &mut Page, answers: usize) -> usize {
     let found = page.wait("the answer", &format!("{counted} ? 'counted' : {ASKED_AGAIN} ? 'again' : null"));
     if found == "again" {
         println!("answer {answers}: {}", page.value("document.getElementById('hint').innerText"));
+        page.wait("the place that was meant", "!document.getElementById('submit').disabled");
         page.click("#submit");
         page.wait("the answer given once more", &counted);
     }

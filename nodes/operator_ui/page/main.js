@@ -24,6 +24,8 @@ const world = new WorldLesson(link, { undo, redo, changed: () => render() });
 const session = new Session({ send: (command) => send(command), ask: (command) => link.ask(command), undo });
 const carry = new Carry(() => render());
 const again = new Set();
+/** Where the target was put for each of the newest questions. */
+const drafts = new Map(), MAX_DRAFTS = 8;
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 // ---- what is on the table now -------------------------------------------------------------------------------------
@@ -57,9 +59,13 @@ function sections(changed) {
   if (own.correcting && own.sentFor === "" && sent?.state === "accepted") Object.assign(own, { correcting: false, sentFor: null, at: null, revealed: false });
   const key = state.question?.open ? state.question.id : null;
   if (key !== null && own.question !== key) {
-    Object.assign(own, { question: key, at: null, revealed: false, sentFor: null, correcting: false, problem: "", look: null });
-    document.querySelector('input[name="confidence"][value="sure"]').checked = true;
-    table.place(null);
+    // A node that was started anew may tell of an older question first; what was about to be said to this one is kept.
+    drafts.set(own.question, own.at);
+    if (drafts.size > MAX_DRAFTS) drafts.delete(drafts.keys().next().value);
+    const at = drafts.get(key) ?? null;
+    Object.assign(own, { question: key, at, revealed: at !== null, sentFor: null, correcting: false, problem: "", look: null });
+    if (at === null) document.querySelector('input[name="confidence"][value="sure"]').checked = true;
+    table.place(at);
   }
   render();
 }

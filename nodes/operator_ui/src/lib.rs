@@ -8,6 +8,7 @@ mod access;
 mod answers;
 mod arm_picture;
 mod assets;
+mod early;
 mod event;
 mod evidence;
 mod hub;

@@ -2,6 +2,7 @@
 
 use crate::answers::Answers;
 use crate::arm_picture::{ArmNews, ArmPicture};
+use crate::early::Early;
 use crate::event::{Event, Output, Recorded, Told};
 use crate::evidence::Evidence;
 use crate::hub::PageId;
@@ -87,6 +88,7 @@ pub struct OperatorUi {
     recordings: Vec<RecordingView>,
     ticked: Option<Time>,
     last_warning: String,
+    early: Early,
 }
 
 impl OperatorUi {
@@ -111,6 +113,7 @@ impl OperatorUi {
             recordings: Vec::new(),
             ticked: None,
             last_warning: String::new(),
+            early: Early::default(),
         }
     }
 
@@ -183,19 +186,25 @@ impl OperatorUi {
                 changed.answers = true;
                 out.extend(self.take_up(now, *found));
             }
-            Event::Said(page, text) => match self.take_command(&now, &text, &mut out) {
-                Ok(news) => {
-                    changed.answers = true;
-                    changed.tabular |= news;
-                }
-                Err((id, reason)) => out.push(tell(Some(page), &ToPage::Refused { id, reason })),
-            },
+            Event::Said(page, text) => self.early.add(now, page, text),
             Event::Handled(feedback, id) => {
                 handled = true;
                 changed.answers = true;
                 self.take_feedback(&now, &feedback, &id, &mut out);
             }
             Event::Tick => out.extend(self.tick(&now)),
+        }
+        let mut early = std::mem::take(&mut self.early);
+        let ready = early.ready(&now, &self.context());
+        self.early = early;
+        for (page, text) in ready {
+            match self.take_command(&now, &text, &mut out) {
+                Ok(news) => {
+                    changed.answers = true;
+                    changed.tabular |= news;
+                }
+                Err((id, reason)) => out.push(tell(Some(page), &ToPage::Refused { id, reason })),
+            }
         }
         let nodes = self.presence.view(&now);
         changed.nodes = nodes != self.nodes;

@@ -79,6 +79,27 @@ fn a_question_is_open_until_it_is_answered_by_anyone() {
 }
 
 #[test]
+fn an_answer_waits_for_its_question_when_the_node_was_started_anew() {
+    // The page has sent it again before the node hears of the question.
+    let mut table = Table::new();
+    assert!(table.say(&place(1, "q3-7")).demonstrations.is_empty());
+    assert!(table.wait(1.0).demonstrations.is_empty() && table.refused.is_empty());
+    let question = query(3);
+    let sent = table.hear(Event::Query(Box::new(question)));
+    assert_eq!(sent.demonstrations.len(), 1, "{:?}", table.refused);
+    assert_eq!(table.answer(&id(1))["state"], "pending");
+    // It does not wait for ever, and not when the lesson is known to ask something else.
+    let mut table = Table::new();
+    table.say(&place(1, "q3-7"));
+    assert!(table.wait(4.0).demonstrations.is_empty() && table.refused.is_empty());
+    table.wait(2.0);
+    assert!(table.refused[0].1.contains("'q3-7' is no longer open"), "{:?}", table.refused);
+    let mut table = Table::asking(4);
+    table.say(&place(1, "q3-7"));
+    assert_eq!(table.refused.len(), 1);
+}
+
+#[test]
 fn a_refusal_is_shown_with_its_reason_and_opens_the_question_again() {
     let mut table = Table::asking(3);
     table.say(&place(1, "q3-7"));
