@@ -22,8 +22,8 @@ pub fn run(check: &Check) -> ExitCode {
     let bringup = |arguments: &Arguments| arguments.settings::<bringup::Settings>().map(drop);
     let mut checks: Vec<_> = nodes().into_iter().map(|node| (node.info.name, node.info.check)).collect();
     checks.push((bringup::Settings::NODE, bringup));
-    let setting = |arguments: &Arguments| arguments.settings::<table_setting::Settings>().map(drop);
-    checks.push((table_setting::Settings::NODE, setting));
+    let setting = |arguments: &Arguments| arguments.settings::<bringup::setting::Settings>().map(drop);
+    checks.push((bringup::setting::Settings::NODE, setting));
     for file in &check.files {
         let args = ["--params-file".to_owned(), file.to_string_lossy().into_owned()];
         for (name, check) in &checks {

@@ -46,7 +46,7 @@ fn main() -> ExitCode {
 fn dispatch(command: &str, rest: &[String]) -> ExitCode {
     match command {
         "bringup" => lesson(rest),
-        "setting" => parsed("apprentice setting", rest, table_setting::run),
+        "setting" => parsed("apprentice setting", rest, bringup::setting::run),
         "replay" => parsed("apprentice replay", rest, replay::run),
         "bag" => parsed("apprentice bag", rest, bag::run),
         "check" => parsed("apprentice check", rest, check::run),

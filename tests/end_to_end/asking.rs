@@ -8,7 +8,6 @@ use apprentice_msgs::msg::{
     TrajectoryPreference, WorldQuery,
 };
 use rustix::process::Signal;
-use std::time::Duration;
 
 /// A lesson about the garden that only a person answers, and its page. It asks for more than a few answers can give.
 fn begin(name: &str, width: u32, height: u32) -> (Suite, Page) {
@@ -19,10 +18,8 @@ fn begin(name: &str, width: u32, height: u32) -> (Suite, Page) {
     std::fs::write(&scenario, strict).expect("the folder of the tests can be written");
     let scenario = scenario.to_string_lossy();
     let mut suite = Suite::start(name, &["--scenario", &scenario, "--demonstrator", "human", "--seed", "3"]);
-    let address = suite.wait_for("the page's address", Duration::from_secs(60), |suite| {
-        std::fs::read_to_string(suite.session.join("page-url")).ok().filter(|url| url.starts_with("http"))
-    });
-    let page = Page::open(address.trim(), width, height);
+    let address = suite.page_url();
+    let page = Page::open(&address, width, height);
     (suite, page)
 }
 

@@ -24,16 +24,9 @@ pub struct Address {
 impl Address {
     /// Waits until it is announced.
     pub fn of(suite: &mut Suite) -> Address {
-        let url = suite.wait_for("the page's address", PATIENCE, |suite| {
-            std::fs::read_to_string(suite.session.join("page-url")).ok().filter(|url| url.starts_with("http"))
-        });
-        let (host, query) = url.trim().trim_start_matches("http://").split_once("/?").expect("an address with a token");
+        let url = suite.page_url();
+        let (host, query) = url.trim_start_matches("http://").split_once("/?").expect("an address with a token");
         Address { host: host.to_owned(), query: query.to_owned() }
-    }
-
-    /// As a person opens it.
-    pub fn url(&self) -> String {
-        format!("http://{}/?{}", self.host, self.query)
     }
 }
 

@@ -11,11 +11,9 @@ use std::time::Duration;
 #[test]
 fn the_slider_shows_what_caution_costs_and_the_robot_follows_the_choice() {
     let mut suite = Suite::start("caution", &["--scenario", "grid", "--seed", "2"]);
-    let address = suite.wait_for("the page's address", Duration::from_secs(60), |suite| {
-        std::fs::read_to_string(suite.session.join("page-url")).ok().filter(|url| url.starts_with("http"))
-    });
+    let address = suite.page_url();
     let pictures = fresh_folder("caution-pictures");
-    let mut page = Page::open(address.trim(), 1280, 860);
+    let mut page = Page::open(&address, 1280, 860);
     page.wait("page about a world", "!document.getElementById('lesson-world').hidden");
     page.wait("arrows", "document.querySelectorAll('#world .move').length > 20");
     page.wait("frontier", "document.querySelectorAll('#frontier .frontier-dot').length === 21");

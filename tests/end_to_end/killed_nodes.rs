@@ -1,40 +1,25 @@
 //! `kill -9` of each node in turn: the suite brings it back, the lesson goes on, and nothing accepted is lost.
 
 use crate::recorded::Recorded;
-use crate::suite::{Suite, run};
-use apprentice_msgs::msg::EvidenceReceipt;
-use reward_posterior::{Entry, read_journal};
+use crate::suite::{ENDLESS, Suite, run};
+use apprentice_msgs::msg::{EvidenceReceipt, EvidenceRecord};
 use rustix::process::Signal;
 use std::time::Duration;
 
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// A lesson that does not end: a bound that is out of reach, and a person who takes a moment.
-const ENDLESS: &str = "/**:
-  reward_posterior:
-    ros__parameters:
-      n_draws: 2000
-  active_query:
-    ros__parameters:
-      epsilon_m: 0.001
-      max_questions: 10000
-      n_candidates: 10
-  demonstrator:
+/// A person who takes a moment.
+const PERSON: &str = "  demonstrator:
     ros__parameters:
       response_delay_s: 0.1
 ";
 
 /// Ids of everything that the journal holds.
 fn journal(suite: &Suite) -> Vec<String> {
-    let bytes = std::fs::read(suite.session.join("evidence.journal")).unwrap_or_default();
-    let (entries, _) = read_journal(&bytes).expect("the journal is whole");
-    let id = |entry| match entry {
-        Entry::Record(record) => {
-            record.demonstration.first().map(|d| d.id.clone()).or(record.response.first().map(|r| r.id.clone()))
-        }
-        Entry::Task(_) | Entry::World(_) => None,
+    let id = |record: EvidenceRecord| {
+        record.demonstration.first().map(|d| d.id.clone()).or(record.response.first().map(|r| r.id.clone()))
     };
-    entries.into_iter().filter_map(id).collect()
+    suite.journal().into_iter().filter_map(id).collect()
 }
 
 /// Waits until two more answers have been accepted.
@@ -49,7 +34,7 @@ fn goes_on(suite: &mut Suite, after: &str) {
 fn each_node_is_killed_in_turn_and_nothing_accepted_is_lost() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("endless.yaml");
-    std::fs::write(&file, ENDLESS).expect("a file can be written");
+    std::fs::write(&file, format!("{ENDLESS}{PERSON}")).expect("a file can be written");
     let file = file.to_string_lossy().into_owned();
     let mut suite = Suite::start("killed", &["--params-file", &file]);
     goes_on(&mut suite, "the start");

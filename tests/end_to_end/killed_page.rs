@@ -5,8 +5,7 @@ use crate::chromium::Page;
 use crate::recorded::Recorded;
 use crate::seated::{begin, listed, open, put, question};
 use crate::suite::{Suite, run};
-use apprentice_msgs::msg::{EvidenceLog, EvidenceRecord};
-use reward_posterior::{Entry, read_journal};
+use apprentice_msgs::msg::EvidenceLog;
 use rustix::process::{Signal, kill_process};
 use std::net::{Ipv4Addr, TcpListener};
 use std::time::Duration;
@@ -24,14 +23,6 @@ const ASKED_AGAIN: &str = "document.getElementById('hint').dataset.tone === 'bad
 fn free_port() -> u16 {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("there is a free port");
     listener.local_addr().expect("it is bound").port()
-}
-
-/// What the journal holds.
-fn kept(suite: &Suite) -> Vec<EvidenceRecord> {
-    let bytes = std::fs::read(suite.session.join("evidence.journal")).unwrap_or_default();
-    let (entries, _) = read_journal(&bytes).expect("the journal is whole");
-    let record = |entry| if let Entry::Record(record) = entry { Some(*record) } else { None };
-    entries.into_iter().filter_map(record).collect()
 }
 
 /// Lets a node do nothing from here on; it is killed later, and never goes on.
@@ -76,7 +67,7 @@ fn an_answer_counts_once_when_the_server_is_killed_before_its_receipt() {
     freeze(&suite, "operator_ui");
     page.click("#submit");
     page.wait("the answer on its way", "document.getElementById('acknowledgement').dataset.state === 'sending'");
-    assert_eq!((page.value(OUTBOX), kept(&suite).len()), (1.into(), 0), "nobody else knows of the answer");
+    assert_eq!((page.value(OUTBOX), suite.journal().len()), (1.into(), 0), "nobody else knows of the answer");
     kill(&mut suite, &mut page, &["operator_ui"]);
     let mut again = counts(&mut page, 1);
 
@@ -86,7 +77,7 @@ fn an_answer_counts_once_when_the_server_is_killed_before_its_receipt() {
     freeze(&suite, "reward_posterior");
     page.click("#submit");
     page.wait("the answer at the server", &format!("{} === 1", listed("placement", "pending")));
-    assert_eq!((page.value(OUTBOX), kept(&suite).len()), (1.into(), 1), "it has no receipt");
+    assert_eq!((page.value(OUTBOX), suite.journal().len()), (1.into(), 1), "it has no receipt");
     kill(&mut suite, &mut page, &["operator_ui", "reward_posterior"]);
     again += counts(&mut page, 2);
 
@@ -114,7 +105,7 @@ fn an_answer_counts_once_when_the_server_is_killed_before_its_receipt() {
     let log = bag.timed::<EvidenceLog>("evidence").pop().expect("there is evidence").1;
     let counted: Vec<_> = log.records.iter().flat_map(|record| &record.demonstration).collect();
     let at: Vec<[f64; 2]> = counted.iter().map(|m| [m.placement.x, m.placement.y]).collect();
-    assert_eq!((at.len(), log.records.len(), kept(&suite).len()), (placed.len(), placed.len(), placed.len()));
+    assert_eq!((at.len(), log.records.len(), suite.journal().len()), (placed.len(), placed.len(), placed.len()));
     assert_eq!(at, placed, "each answer counts once, in the order in which it was given");
     assert_eq!(counted.iter().map(|m| m.query_id.clone()).collect::<Vec<_>>(), asked);
     let output = run(&["replay", "--verify", &suite.bag().to_string_lossy()]);

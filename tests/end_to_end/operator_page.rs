@@ -83,11 +83,9 @@ fn drag(page: &mut Page, query: &PlacementQuery, to: Point) -> Point {
 #[test]
 fn three_answers_are_dragged_one_is_taken_back_and_the_page_says_what_the_topics_say() {
     let mut suite = Suite::start("page", &["--demonstrator", "human"]);
-    let address = suite.wait_for("the page's address", Duration::from_secs(60), |suite| {
-        std::fs::read_to_string(suite.session.join("page-url")).ok().filter(|url| url.starts_with("http"))
-    });
+    let address = suite.page_url();
     let pictures = fresh_folder("page-pictures");
-    let mut page = Page::open(address.trim(), 1280, 860);
+    let mut page = Page::open(&address, 1280, 860);
     let mut seen = vec![shown(&mut page, 0)];
     let mut placed = Vec::new();
     for revision in 1..=3 {

@@ -4,7 +4,6 @@
 use crate::caller::{Address, Caller, Fate, id};
 use crate::recorded::Recorded;
 use crate::suite::{Suite, fresh_folder};
-use reward_posterior::{Entry, read_journal};
 use rustix::process::{Pid, Signal};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -89,10 +88,7 @@ fn a_thousand_rapid_answers_are_each_accepted_or_refused_and_nothing_grows() {
     let distinct: BTreeSet<String> = evidence.iter().cloned().collect();
     assert_eq!(distinct.len(), evidence.len(), "an id is there twice");
     assert_eq!(distinct, accepted, "what the page was told is what counts");
-    let bytes = std::fs::read(suite.session.join("evidence.journal")).expect("there is a journal");
-    let (entries, _) = read_journal(&bytes).expect("the journal is whole");
-    let journal = entries
-        .iter()
-        .filter_map(|entry| if let Entry::Record(record) = entry { Some(exchange::record_id(record)) } else { None });
+    let journal = suite.journal();
+    let journal = journal.iter().map(exchange::record_id);
     assert_eq!(journal.collect::<Vec<_>>(), evidence, "the journal against the log of evidence");
 }

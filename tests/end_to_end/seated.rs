@@ -1,20 +1,7 @@
 //! A person who sits at the page of a lesson about a table, in a browser: what they do and what they see there.
 
-use crate::caller::Address;
 use crate::chromium::Page;
-use crate::suite::{Suite, fresh_folder};
-
-/// A lesson about flowers that does not end by itself.
-const ENDLESS: &str = "/**:
-  reward_posterior:
-    ros__parameters:
-      n_draws: 2000
-  active_query:
-    ros__parameters:
-      epsilon_m: 0.001
-      max_questions: 10000
-      n_candidates: 10
-";
+use crate::suite::{ENDLESS, Suite, fresh_folder};
 
 /// Starts a lesson that does not end by itself and that only a person answers; `more` goes into its parameters.
 pub fn begin(name: &str, more: &str) -> Suite {
@@ -25,7 +12,7 @@ pub fn begin(name: &str, more: &str) -> Suite {
 
 /// Opens the page of a lesson.
 pub fn open(suite: &mut Suite) -> Page {
-    Page::open(&Address::of(suite).url(), 1280, 860)
+    Page::open(&suite.page_url(), 1280, 860)
 }
 
 /// Waits for a question other than `before` that can be answered here: its id.

@@ -1,5 +1,7 @@
 //! One running `apprentice`, with a session folder and a DDS domain of its own; one at a time on this machine.
 
+use apprentice_msgs::msg::EvidenceRecord;
+use reward_posterior::{Entry, read_journal};
 use rustix::process::{Pid, Signal, kill_process};
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read};
@@ -14,6 +16,18 @@ static STARTED: AtomicU32 = AtomicU32::new(0);
 
 /// Cyclone DDS on loopback, where lessons are.
 pub const LOOPBACK: &str = "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces></General></Domain></CycloneDDS>";
+
+/// Parameters of a lesson about a table that does not end: the bound is out of reach.
+pub const ENDLESS: &str = "/**:
+  reward_posterior:
+    ros__parameters:
+      n_draws: 2000
+  active_query:
+    ros__parameters:
+      epsilon_m: 0.001
+      max_questions: 10000
+      n_candidates: 10
+";
 
 /// How long a poll waits before it looks again.
 const POLL: Duration = Duration::from_millis(20);
@@ -186,6 +200,22 @@ impl Suite {
         all.extend(arguments);
         let process = Process::start(apprentice(domain, &all), name);
         Suite { process, session, domain, _turn: turn }
+    }
+
+    /// The address of the operator's page, once it is announced.
+    pub fn page_url(&mut self) -> String {
+        let url = self.wait_for("the page's address", Duration::from_secs(60), |suite| {
+            fs::read_to_string(suite.session.join("page-url")).ok().filter(|url| url.starts_with("http"))
+        });
+        url.trim().to_owned()
+    }
+
+    /// Every event that the journal holds, accepted in this order.
+    pub fn journal(&self) -> Vec<EvidenceRecord> {
+        let bytes = fs::read(self.session.join("evidence.journal")).unwrap_or_default();
+        let (entries, _) = read_journal(&bytes).expect("the journal is whole");
+        let record = |entry| if let Entry::Record(record) = entry { Some(*record) } else { None };
+        entries.into_iter().filter_map(record).collect()
     }
 
     /// The bag's folder.

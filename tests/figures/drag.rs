@@ -3,19 +3,15 @@
 use crate::chromium::Page;
 use crate::suite::Suite;
 use serde_json::{Value, json};
-use std::time::Duration;
 
-const LIMIT: Duration = Duration::from_secs(60);
 /// Moves that are measured, one a frame.
 const MOVES: u32 = 300;
 
 /// Drags the target around the table, a step a frame: what a step costs the page with its layout, and how long the frames are.
 pub fn measure() -> Value {
     let mut suite = Suite::start("figures-drag", &["--demonstrator", "human"]);
-    let address = suite.wait_for("the page's address", LIMIT, |suite| {
-        std::fs::read_to_string(suite.session.join("page-url")).ok().filter(|url| url.starts_with("http"))
-    });
-    let mut page = Page::open(address.trim(), 1280, 860);
+    let address = suite.page_url();
+    let mut page = Page::open(&address, 1280, 860);
     page.wait("open question", "!document.getElementById('skip').disabled");
     let of = page.value(&format!(
         "(async () => {{

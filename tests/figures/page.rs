@@ -16,10 +16,8 @@ const LIMIT: Duration = Duration::from_secs(60);
 /// Answers questions as a page does.
 pub fn measure() -> Value {
     let mut suite = Suite::start("figures-page", &["--demonstrator", "human"]);
-    let address = suite.wait_for("the page's address", LIMIT, |suite| {
-        std::fs::read_to_string(suite.session.join("page-url")).ok().filter(|url| url.starts_with("http"))
-    });
-    let mut page = Page::join(address.trim());
+    let address = suite.page_url();
+    let mut page = Page::join(&address);
     let (mut acknowledged, mut asked_again) = (Vec::new(), Vec::new());
     for n in 1..=ANSWERS {
         let question = page.wait(|state| state["question"]["open"] == true).clone()["question"]["id"].clone();

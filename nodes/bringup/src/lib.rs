@@ -13,6 +13,7 @@ mod log_line;
 mod nodes;
 mod scenario;
 mod session;
+pub mod setting;
 mod settings;
 mod start;
 mod story;

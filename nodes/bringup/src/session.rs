@@ -124,7 +124,7 @@ fn is_occupied(dir: &Path) -> bool {
 }
 
 /// The path, or the path with the first of -2, -3, … that does not exist.
-fn unused(path: &Path) -> PathBuf {
+pub(crate) fn unused(path: &Path) -> PathBuf {
     let numbered = |n: u32| PathBuf::from(format!("{}-{n}", path.display()));
     if path.exists() { (2..).map(numbered).find(|path| !path.exists()).unwrap_or_default() } else { path.to_owned() }
 }

@@ -14,31 +14,30 @@ const MAX_EARLY: usize = 32;
 /// What pages have said and nobody has judged yet.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Early {
-    said: Vec<(Time, PageId, String)>,
+    said: Vec<(Time, PageId, FromPage)>,
 }
 
 impl Early {
     /// A page has said something.
-    pub fn add(&mut self, now: Time, page: PageId, text: String) {
-        self.said.push((now, page, text));
+    pub fn add(&mut self, now: Time, page: PageId, command: FromPage) {
+        self.said.push((now, page, command));
     }
 
     /// What is to be judged now, in the order in which it was said.
-    pub fn ready(&mut self, now: &Time, context: &Context<'_>) -> Vec<(PageId, String)> {
+    pub fn ready(&mut self, now: &Time, context: &Context<'_>) -> Vec<(PageId, FromPage)> {
         let is_full = self.said.len() > MAX_EARLY;
         let (wait, ready): (Vec<_>, Vec<_>) =
-            std::mem::take(&mut self.said).into_iter().partition(|(since, _, text)| {
-                !is_full && now.nanoseconds_since(since) < WAIT_NS && is_early(context, text)
+            std::mem::take(&mut self.said).into_iter().partition(|(since, _, command)| {
+                !is_full && now.nanoseconds_since(since) < WAIT_NS && is_early(context, command)
             });
         self.said = wait;
-        ready.into_iter().map(|(_, page, text)| (page, text)).collect()
+        ready.into_iter().map(|(_, page, command)| (page, command)).collect()
     }
 }
 
-/// Whether a text answers a question that is not known, where the lesson is not known to ask another one.
-fn is_early(context: &Context<'_>, text: &str) -> bool {
-    let Ok(command) = serde_json::from_str::<FromPage>(text) else { return false };
-    let id = match &command {
+/// Whether a command answers a question that is not known, where the lesson is not known to ask another one.
+fn is_early(context: &Context<'_>, command: &FromPage) -> bool {
+    let id = match command {
         FromPage::Place { query_id, .. }
         | FromPage::Act { query_id, .. }
         | FromPage::Mark { query_id, .. }

@@ -7,7 +7,8 @@ use exchange::{broken_text, colour, delete_all_markers, marker, pose_at, text_ma
 
 const WOOD: [f32; 4] = [0.87, 0.80, 0.68, 1.0];
 const OBJECT: [f32; 4] = [0.93, 0.92, 0.89, 1.0];
-const TARGET: [f32; 4] = [0.85, 0.46, 0.17, 0.9];
+/// What is to be placed.
+pub(crate) const TARGET: [f32; 4] = [0.85, 0.46, 0.17, 0.9];
 const GUESS: [f32; 4] = [0.42, 0.31, 0.70, 0.55];
 const TABLE_THICKNESS_M: f64 = 0.02;
 const TEXT_M: f64 = 0.035;
@@ -18,7 +19,7 @@ const LINE: usize = 56;
 /// then the target is an interactive marker. The stamp is zero, which means "the newest transform" to those who draw.
 pub(crate) fn markers(
     scene: &SceneView,
-    question: Option<&str>,
+    asked: Option<&str>,
     plan: Option<&PlanView>,
     bounds: Option<&BoundsView>,
 ) -> MarkerArray {
@@ -37,12 +38,9 @@ pub(crate) fn markers(
     }
     let target = &scene.target;
     let (beside_x, beside_y) = (scene.width_m + target.size_x_m, 0.5 * scene.depth_m);
-    match question {
-        Some(words) => {
-            let text = broken_text(words, LINE);
-            let height_m = TEXT_M * (text.lines().count() as f64 + 5.0);
-            list.push(label(frame, "question", 0, &text, 0.5 * scene.width_m, scene.depth_m + height_m, TEXT_M));
-        }
+    match asked {
+        // Above the bound.
+        Some(words) => list.push(question(frame, words, [0.5 * scene.width_m, scene.depth_m + 3.0 * TEXT_M])),
         None => {
             list.push(solid(frame, "target", 0, target, beside_x, beside_y, TARGET));
             list.push(label(frame, "target", 1, &target.label, beside_x, beside_y, target.size_z_m + TEXT_M));
@@ -62,14 +60,25 @@ pub(crate) fn markers(
     MarkerArray { markers: list }
 }
 
-fn solid(frame: &str, ns: &str, id: i32, object: &ObjectView, x_m: f64, y_m: f64, rgba: [f32; 4]) -> Marker {
+/// A thing without a place yet.
+pub(crate) fn body(frame: &str, ns: &str, id: i32, object: &ObjectView, rgba: [f32; 4]) -> Marker {
     Marker {
         r#type: if object.shape == "box" { Marker::CUBE } else { Marker::CYLINDER },
-        pose: pose_at([x_m, y_m, 0.5 * object.size_z_m], object.yaw_rad),
         scale: Vector3 { x: object.size_x_m, y: object.size_y_m, z: object.size_z_m },
         color: colour(rgba),
         ..marker(frame, ns, id)
     }
+}
+
+/// What is asked, in lines that end above a point, metres.
+pub(crate) fn question(frame: &str, words: &str, [x_m, y_m]: [f64; 2]) -> Marker {
+    let text = broken_text(words, LINE);
+    let half_m = TEXT_M * (0.6 * text.lines().count() as f64 + 1.0);
+    label(frame, "question", 0, &text, x_m, y_m + half_m, TEXT_M)
+}
+
+fn solid(frame: &str, ns: &str, id: i32, object: &ObjectView, x_m: f64, y_m: f64, rgba: [f32; 4]) -> Marker {
+    Marker { pose: pose_at([x_m, y_m, 0.5 * object.size_z_m], object.yaw_rad), ..body(frame, ns, id, object, rgba) }
 }
 
 fn label(frame: &str, ns: &str, id: i32, text: &str, x_m: f64, y_m: f64, z_m: f64) -> Marker {

@@ -186,24 +186,32 @@ impl OperatorUi {
                 changed.answers = true;
                 out.extend(self.take_up(now, *found));
             }
-            Event::Said(page, text) => self.early.add(now, page, text),
+            Event::Said(page, text) => match serde_json::from_str(&text) {
+                Ok(command) => self.early.add(now, page, command),
+                Err(error) => {
+                    let reason = format!("the page sent no command: {error}");
+                    out.push(tell(Some(page), &ToPage::Refused { id: None, reason }));
+                }
+            },
+            // While something is slid it is told of many times a second; what counts is where it is let go.
+            Event::Handled(feedback, _) if feedback.event_type == InteractiveMarkerFeedback::POSE_UPDATE => {}
             Event::Handled(feedback, id) => {
                 handled = true;
-                changed.answers = true;
-                self.take_feedback(&now, &feedback, &id, &mut out);
+                changed.answers = self.take_feedback(&now, &feedback, &id, &mut out);
             }
             Event::Tick => out.extend(self.tick(&now)),
         }
         let mut early = std::mem::take(&mut self.early);
         let ready = early.ready(&now, &self.context());
         self.early = early;
-        for (page, text) in ready {
-            match self.take_command(&now, &text, &mut out) {
+        for (page, command) in ready {
+            let id = id_of(&command).chars().take(128).collect();
+            match self.carry_out(&now, command, &mut out) {
                 Ok(news) => {
                     changed.answers = true;
                     changed.tabular |= news;
                 }
-                Err((id, reason)) => out.push(tell(Some(page), &ToPage::Refused { id, reason })),
+                Err(reason) => out.push(tell(Some(page), &ToPage::Refused { id: Some(id), reason })),
             }
         }
         let nodes = self.presence.view(&now);
@@ -296,30 +304,12 @@ impl OperatorUi {
         view
     }
 
-    /// Carries out a page's command, or says why not.
-    fn take_command(
-        &mut self,
-        now: &Time,
-        text: &str,
-        out: &mut Vec<Output>,
-    ) -> Result<News, (Option<String>, String)> {
-        let command: FromPage =
-            serde_json::from_str(text).map_err(|error| (None, format!("the page sent no command: {error}")))?;
-        self.carry_out(now, command, out)
-    }
-
     /// Carries out a command, or says why not.
-    fn carry_out(
-        &mut self,
-        now: &Time,
-        command: FromPage,
-        out: &mut Vec<Output>,
-    ) -> Result<News, (Option<String>, String)> {
-        let id = Some(id_of(&command).chars().take(128).collect());
-        if let FromPage::Caution { id: of, lambda } = &command {
-            return self.tabular.say(now, &self.settings.source, of, *lambda).map_err(|reason| (id, reason));
-        }
+    fn carry_out(&mut self, now: &Time, command: FromPage, out: &mut Vec<Output>) -> Result<News, String> {
         match &command {
+            FromPage::Caution { id, lambda } => {
+                return self.tabular.say(now, &self.settings.source, id, *lambda);
+            }
             FromPage::Recordings { .. } => {
                 out.push(Output::LookUp);
                 return Ok(News::NONE);
@@ -329,18 +319,17 @@ impl OperatorUi {
                     return Ok(News::NONE);
                 }
                 if !self.recordings.iter().any(|known| known.name == *name) {
-                    return Err((Some(id.clone()), "there is no such recording".into()));
+                    return Err("there is no such recording".into());
                 }
                 out.push(Output::Read { id: id.clone(), name: name.clone() });
                 return Ok(News::NONE);
             }
             _ => {}
         }
-        match self.context().evidence(now, command) {
-            Ok(None) => Ok(News::NONE),
-            Ok(Some(evidence)) => self.answers.add(evidence).map(|()| News::NONE).map_err(|reason| (id, reason)),
-            Err(reason) => Err((id, reason)),
+        if let Some(evidence) = self.context().evidence(now, command)? {
+            self.answers.add(evidence)?;
         }
+        Ok(News::NONE)
     }
 
     /// What is asked, for those who show it as interactive markers.
@@ -355,19 +344,25 @@ impl OperatorUi {
         }
     }
 
-    /// Takes what a person did to an interactive marker; what cannot be meant is told where they look.
-    fn take_feedback(&mut self, now: &Time, feedback: &InteractiveMarkerFeedback, id: &str, out: &mut Vec<Output>) {
+    /// Takes what a person did to an interactive marker: whether that said something. What cannot be meant is told where they look.
+    fn take_feedback(
+        &mut self,
+        now: &Time,
+        feedback: &InteractiveMarkerFeedback,
+        id: &str,
+        out: &mut Vec<Output>,
+    ) -> bool {
         let mut handles = std::mem::take(&mut self.handles);
-        let meant = handles.take(self.asked(), feedback, id);
-        let refused = match meant {
-            Ok(None) => None,
-            Ok(Some(command)) => self.carry_out(now, command, out).err().map(|(_, reason)| reason),
-            Err(reason) => Some(reason),
+        let done = match handles.take(self.asked(), feedback, id) {
+            Ok(None) => Ok(false),
+            Ok(Some(command)) => self.carry_out(now, command, out).map(|_| true),
+            Err(reason) => Err(reason),
         };
-        if let Some(reason) = refused {
-            handles.hint(&reason);
+        if let Err(reason) = &done {
+            handles.hint(reason);
         }
         self.handles = handles;
+        done == Ok(true)
     }
 
     /// What those who show interactive markers are to be told.

@@ -13,9 +13,10 @@ use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// What the lesson was about before the first event; whatever comes later is a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 enum Beginning {
-    Table,
+    /// As the table stood then; what is moved later are records.
+    Table(Box<TableScene>),
     World,
 }
 
@@ -24,8 +25,6 @@ enum Beginning {
 pub struct Evidence {
     weights: Weights,
     beginning: Option<Beginning>,
-    /// The table that the lesson began with, before anything on it was moved.
-    first_task: Option<TableScene>,
     task: Option<(TableScene, Scene)>,
     world: Option<Arc<World>>,
     offered: Option<Arc<World>>,
@@ -61,8 +60,7 @@ impl Evidence {
     /// A scene that cannot be used.
     pub fn begin_with_table(&mut self, message: TableScene) -> Result<(), ExchangeError> {
         self.set_task(message.clone())?;
-        self.first_task = Some(message);
-        self.beginning = Some(Beginning::Table);
+        self.beginning = Some(Beginning::Table(Box::new(message)));
         Ok(())
     }
 
@@ -169,8 +167,7 @@ impl Evidence {
         let records = self.in_force().filter(|record| keep(record_id(record))).cloned().collect();
         Self {
             weights: self.weights.clone(),
-            beginning: self.beginning,
-            first_task: self.first_task.clone(),
+            beginning: self.beginning.clone(),
             task: self.task.clone(),
             world: self.world.clone(),
             records,
@@ -256,13 +253,12 @@ impl Evidence {
 
     /// The log of everything accepted.
     pub fn log(&self) -> EvidenceLog {
-        let of = |beginning| self.beginning == Some(beginning);
-        EvidenceLog {
-            header: self.header(),
-            task: self.first_task.clone().unwrap_or_default(),
-            world: if of(Beginning::World) { self.world_reference() } else { WorldReference::default() },
-            records: self.records.clone(),
-        }
+        let (task, world) = match &self.beginning {
+            Some(Beginning::Table(task)) => ((**task).clone(), WorldReference::default()),
+            Some(Beginning::World) => (TableScene::default(), self.world_reference()),
+            None => (TableScene::default(), WorldReference::default()),
+        };
+        EvidenceLog { header: self.header(), task, world, records: self.records.clone() }
     }
 }
 

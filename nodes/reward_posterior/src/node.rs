@@ -6,6 +6,7 @@ use crate::message::posterior_message;
 use crate::piece::Piece;
 use crate::preview::{Sampled, preview};
 use crate::receive::{Open, Verdict, judge};
+use crate::subject::Elsewhere;
 use crate::waiting::Waiting;
 use crate::{Evidence, Settings};
 use apprentice_msgs::builtin_interfaces::Time;
@@ -88,8 +89,8 @@ pub struct RewardPosterior {
     previewed: Option<u64>,
     /// What was said last of a table or a world that cannot be used: they come again and again.
     pub(crate) told: Option<String>,
-    /// The table as it is seen now, where that is not the one that the lesson is about, and for how many ticks.
-    pub(crate) elsewhere: Option<(TableScene, u32)>,
+    /// The table as it is seen now, where that is not as the lesson has it.
+    pub(crate) elsewhere: Option<Elsewhere>,
     ticks: u32,
 }
 

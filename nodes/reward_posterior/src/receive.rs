@@ -220,6 +220,11 @@ fn known(evidence: &Evidence, record: &EvidenceRecord) -> Result<(), Verdict> {
             refuse(format!("its id '{id}' was used before for other evidence; ids must be unique"))
         };
     }
+    has_room(evidence, record)
+}
+
+/// Whether a session takes one event more.
+pub(crate) fn has_room(evidence: &Evidence, record: &EvidenceRecord) -> Result<(), Verdict> {
     if evidence.records().len() >= MAX_RECORDS {
         return refuse(format!("the session holds {MAX_RECORDS} events, which is all it takes; start a new session"));
     }

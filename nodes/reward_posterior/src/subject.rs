@@ -3,13 +3,22 @@
 
 use crate::journal::{Entry, MAX_FRAME};
 use crate::node::{Output, RewardPosterior};
-use crate::receive::{MAX_BYTES, Verdict, same_features};
+use crate::receive::{Verdict, has_room, same_features};
 use apprentice_msgs::msg::{EvidenceRecord, TableScene, TabularWorld};
-use exchange::{MAX_ID, scene_from_message, stands_as, world_from_message, world_hash};
+use exchange::{MAX_ID, scene_from_message, world_from_message, world_hash};
 use scene::{Rbf, Scene};
 
 /// Things that were moved have to stand still for so many seconds before they count.
 const STILL_TICKS: u32 = 2;
+
+/// A table that is not as the lesson has it.
+pub(crate) struct Elsewhere {
+    message: TableScene,
+    /// The same, checked.
+    scene: Scene,
+    /// For how long nothing on it was moved.
+    ticks: u32,
+}
 
 impl RewardPosterior {
     pub(crate) fn scene(&mut self, scene: TableScene) -> Vec<Output> {
@@ -18,53 +27,55 @@ impl RewardPosterior {
             Err(error) => return self.tell(format!("the scene is ignored: {error}")),
         };
         if self.evidence.task().is_some() {
-            return self.moved(scene, &checked);
+            return self.moved(scene, checked);
         }
         if let Err(reason) = self.evidence.weights().fit(Rbf::new(&checked).n()) {
             return self.tell(format!("the scene '{}' is ignored: {reason}", checked.id));
         }
-        let entry = if self.evidence.is_blank() { Entry::Task(Box::new(scene)) } else { self.table_record(scene) };
+        let entry = if self.evidence.is_blank() {
+            Entry::Task(Box::new(scene))
+        } else {
+            Entry::Record(Box::new(self.table_record(scene)))
+        };
         self.begin(vec![entry])
     }
 
-    /// A table as an accepted event.
-    fn table_record(&self, scene: TableScene) -> Entry {
+    /// A table as an event of the lesson.
+    fn table_record(&self, scene: TableScene) -> EvidenceRecord {
         let (sequence, kind) = (self.evidence.revision() + 1, EvidenceRecord::SCENE);
-        Entry::Record(Box::new(EvidenceRecord { sequence, kind, scene: vec![scene], ..EvidenceRecord::default() }))
+        EvidenceRecord { sequence, kind, scene: vec![scene], ..EvidenceRecord::default() }
     }
 
     /// The table is seen again. What stands elsewhere than it did is noted, and counts once it stands still.
-    fn moved(&mut self, scene: TableScene, checked: &Scene) -> Vec<Output> {
+    fn moved(&mut self, message: TableScene, scene: Scene) -> Vec<Output> {
         let Some((_, task)) = self.evidence.task() else { return Vec::new() };
-        if task.stands_as(checked) {
+        if task.stands_as(&scene) {
             self.elsewhere = None;
             return Vec::new();
         }
-        if let Err(Verdict::Refuse(reason) | Verdict::Unknown(reason)) = same_features(&self.evidence, checked) {
+        if let Err(Verdict::Refuse(reason) | Verdict::Unknown(reason)) = same_features(&self.evidence, &scene) {
             self.elsewhere = None;
             return self.tell(format!("the table is not what the lesson is about, which goes on about that: {reason}"));
         }
-        let stood = match &self.elsewhere {
-            Some((seen, ticks)) if stands_as(seen, &scene) => *ticks,
-            _ => 0,
-        };
-        self.elsewhere = Some((scene, stood));
+        let ticks =
+            self.elsewhere.take().filter(|before| before.scene.stands_as(&scene)).map_or(0, |before| before.ticks);
+        self.elsewhere = Some(Elsewhere { message, scene, ticks });
         Vec::new()
     }
 
     /// A second has passed. Draws do not depend on where things stand; the bound on the table does, and so does what to ask.
     pub(crate) fn stood_still(&mut self) -> Vec<Output> {
-        let Some((scene, ticks)) = self.elsewhere.take() else { return Vec::new() };
-        if ticks + 1 < STILL_TICKS {
-            self.elsewhere = Some((scene, ticks + 1));
+        let Some(seen) = self.elsewhere.take() else { return Vec::new() };
+        if seen.ticks + 1 < STILL_TICKS {
+            self.elsewhere = Some(Elsewhere { ticks: seen.ticks + 1, ..seen });
             return Vec::new();
         }
-        if self.evidence.n_bytes() > MAX_BYTES {
-            return self.tell("things on the table were moved, but the session holds all that it takes".into());
+        let record = self.table_record(seen.message);
+        if let Err(Verdict::Refuse(reason) | Verdict::Unknown(reason)) = has_room(&self.evidence, &record) {
+            return self.tell(format!("that things on the table were moved cannot be kept: {reason}"));
         }
-        let entry = self.table_record(scene);
         self.close_questions();
-        self.begin(vec![entry])
+        self.begin(vec![Entry::Record(Box::new(record))])
     }
 
     pub(crate) fn world(&mut self, message: &TabularWorld) -> Vec<Output> {

@@ -1,7 +1,7 @@
 //! From the flat lists of the parameters to a scene.
 
 use crate::Settings;
-use scene::{ListError, Listed, Object, Point, Scene, SceneError, listed_target};
+use scene::{ListError, Listed, Scene, SceneError, listed_target};
 use thiserror::Error;
 
 /// Why parameters describe no table.
@@ -21,25 +21,19 @@ pub enum LayoutError {
 /// When lists do not fit together, or the scene breaks the rules of scenes.
 pub fn task_scene(settings: &Settings) -> Result<Scene, LayoutError> {
     let listed = Listed {
+        of: "object",
         ids: &settings.object_ids,
         labels: &settings.object_labels,
         shapes: &settings.object_shapes,
         sizes_m: &settings.object_sizes_m,
         supports: &settings.object_supports,
     };
-    listed.fit("object_positions_m", settings.object_positions_m.len(), 2, false)?;
-    listed.fit("object_yaws_rad", settings.object_yaws_rad.len(), 1, true)?;
-    let standing = |(i, object): (usize, Object)| Object {
-        position_m: Point::new(settings.object_positions_m[2 * i], settings.object_positions_m[2 * i + 1]),
-        yaw_rad: settings.object_yaws_rad.get(i).copied().unwrap_or(0.0),
-        ..object
-    };
     let scene = Scene {
         id: settings.scene_id.clone(),
         frame: settings.frame.clone(),
         width_m: settings.table_width_m,
         depth_m: settings.table_depth_m,
-        objects: listed.objects()?.into_iter().enumerate().map(standing).collect(),
+        objects: listed.standing(&settings.object_positions_m, &settings.object_yaws_rad)?,
         target: listed_target(
             &settings.target_id,
             &settings.target_label,

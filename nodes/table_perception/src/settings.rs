@@ -83,6 +83,7 @@ impl Default for Settings {
 impl Settings {
     fn listed(&self) -> Listed<'_> {
         Listed {
+            of: "object",
             ids: &self.object_ids,
             labels: &self.object_labels,
             shapes: &self.object_shapes,

@@ -7,16 +7,18 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ListError {
     /// Lists that belong together have different lengths.
-    #[error("{name} has {got} entries; {expected} are needed for the {objects} object_ids")]
+    #[error("{name} has {got} entries; {expected} are needed for the {things} {of}_ids")]
     Length {
         /// The parameter.
-        name: &'static str,
+        name: String,
+        /// As in [`Listed::of`].
+        of: &'static str,
         /// Got.
         got: usize,
         /// Needed.
         expected: usize,
-        /// Number of objects.
-        objects: usize,
+        /// Number of things.
+        things: usize,
     },
     /// A size has three extents.
     #[error("target_size_m has {got} entries; it must have 3 (x, y, z)")]
@@ -47,6 +49,8 @@ pub enum ListError {
 /// What is known of things wherever they stand.
 #[derive(Debug, Clone, Copy)]
 pub struct Listed<'a> {
+    /// What the names of the lists begin with: "object" or "target".
+    pub of: &'static str,
     /// Unique ids.
     pub ids: &'a [String],
     /// What people call them; one each, or none to use the ids.
@@ -65,10 +69,10 @@ impl Listed<'_> {
     /// # Errors
     /// Lists that do not fit together; a shape that is not known.
     pub fn objects(&self) -> Result<Vec<Object>, ListError> {
-        self.fit("object_labels", self.labels.len(), 1, true)?;
-        self.fit("object_shapes", self.shapes.len(), 1, false)?;
-        self.fit("object_sizes_m", self.sizes_m.len(), 3, false)?;
-        self.fit("object_supports", self.supports.len(), 1, true)?;
+        self.fit(&format!("{}_labels", self.of), self.labels.len(), 1, true)?;
+        self.fit(&format!("{}_shapes", self.of), self.shapes.len(), 1, false)?;
+        self.fit(&format!("{}_sizes_m", self.of), self.sizes_m.len(), 3, false)?;
+        self.fit(&format!("{}_supports", self.of), self.supports.len(), 1, true)?;
         let object = |(i, id): (usize, &String)| {
             Ok(Object {
                 id: id.clone(),
@@ -82,14 +86,30 @@ impl Listed<'_> {
         self.ids.iter().enumerate().map(object).collect()
     }
 
+    /// The things where they stand: two coordinates each (x, y), metres, and their rotations about the vertical, radians, or none for
+    /// all zero.
+    ///
+    /// # Errors
+    /// Lists that do not fit together; a shape that is not known.
+    pub fn standing(&self, positions_m: &[f64], yaws_rad: &[f64]) -> Result<Vec<Object>, ListError> {
+        self.fit(&format!("{}_positions_m", self.of), positions_m.len(), 2, false)?;
+        self.fit(&format!("{}_yaws_rad", self.of), yaws_rad.len(), 1, true)?;
+        let stands = |(i, object): (usize, Object)| Object {
+            position_m: Point::new(positions_m[2 * i], positions_m[2 * i + 1]),
+            yaw_rad: yaws_rad.get(i).copied().unwrap_or(0.0),
+            ..object
+        };
+        Ok(self.objects()?.into_iter().enumerate().map(stands).collect())
+    }
+
     /// Whether a list of `got` entries has `each` of them for every thing, or none where it is `optional`.
     ///
     /// # Errors
     /// [`ListError::Length`], which names the list.
-    pub fn fit(&self, name: &'static str, got: usize, each: usize, optional: bool) -> Result<(), ListError> {
-        let (objects, expected) = (self.ids.len(), self.ids.len() * each);
+    pub fn fit(&self, name: &str, got: usize, each: usize, optional: bool) -> Result<(), ListError> {
+        let (of, things, expected) = (self.of, self.ids.len(), self.ids.len() * each);
         let fits = got == expected || (optional && got == 0);
-        if fits { Ok(()) } else { Err(ListError::Length { name, got, expected, objects }) }
+        if fits { Ok(()) } else { Err(ListError::Length { name: name.to_owned(), of, got, expected, things }) }
     }
 }
 

@@ -2,11 +2,12 @@
 
 use super::layout::{CELL_M, Layout};
 use super::world::WAYS;
+use crate::markers::question;
 use crate::protocol::{PolicyView, WorldView};
 use apprentice_msgs::geometry_msgs::{Point, Vector3};
 use apprentice_msgs::msg::{WorldQuery, WorldTrajectory};
 use apprentice_msgs::visualization_msgs::{Marker, MarkerArray};
-use exchange::{broken_text, colour, delete_all_markers, marker, pose_at, text_marker};
+use exchange::{colour, delete_all_markers, marker, pose_at, text_marker};
 
 /// Colours of features, again from the first after the last.
 const HUES: [[f32; 4]; 6] = [
@@ -24,8 +25,6 @@ const END: [f32; 4] = [0.20, 0.20, 0.24, 1.0];
 /// Rarer actions are not drawn.
 const LEAST: f64 = 0.02;
 const LETTER_M: f64 = 0.035;
-/// Longer lines are broken, characters.
-const LINE: usize = 56;
 /// More features are not in the legend.
 const MAX_LEGEND: usize = 24;
 
@@ -37,7 +36,7 @@ pub(crate) fn map(
     frame: &str,
 ) -> MarkerArray {
     let layout = Layout::new(world);
-    let [_, depth_m] = layout.size_m();
+    let [width_m, depth_m] = layout.size_m();
     let mut list = vec![delete_all_markers(frame)];
     if layout.n_drawn() > 0 {
         list.push(cells(world, layout, frame));
@@ -51,10 +50,7 @@ pub(crate) fn map(
             for (i, way) in query.trajectories.iter().enumerate().take(WAYS.len()) {
                 list.extend(path(way, i, query.trajectories.len(), layout, frame));
             }
-            let text = broken_text(&query.reason, LINE);
-            let rows = text.lines().count() as f64;
-            let at_m = [0.5 * layout.size_m()[0], depth_m + LETTER_M * (0.6 * rows + 1.0), 0.0];
-            list.push(text_marker(frame, "question", 0, &text, at_m, LETTER_M));
+            list.push(question(frame, &query.reason, [0.5 * width_m, depth_m]));
         }
         None => list.extend(policy.and_then(|policy| moves(world, policy, layout, frame))),
     }
@@ -183,7 +179,7 @@ fn moves(world: &WorldView, policy: &PolicyView, layout: Layout<'_>, frame: &str
         r#type: Marker::LINE_LIST,
         pose: pose_at([0.0, 0.0, 0.01], 0.0),
         scale: Vector3 { x: 0.05 * CELL_M, y: 0.0, z: 0.0 },
-        color: colour([0.16, 0.17, 0.22, 1.0]),
+        color: colour([MOVE[0], MOVE[1], MOVE[2], 1.0]),
         points,
         colors,
         ..marker(frame, "moves", 0)

@@ -3,13 +3,12 @@
 use super::draft::Draft;
 use super::tiles::{ANSWER, Column, PASS, entry, handle, how_sure};
 use super::{named, passes};
+use crate::markers::{TARGET, body};
 use crate::protocol::SceneView;
-use apprentice_msgs::geometry_msgs::{Quaternion, Vector3};
-use apprentice_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerControl, Marker};
-use exchange::{colour, marker};
+use apprentice_msgs::geometry_msgs::Quaternion;
+use apprentice_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerControl};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-const TARGET: [f32; 4] = [0.85, 0.46, 0.17, 0.9];
 const BLOCKED: [f32; 4] = [0.72, 0.16, 0.14, 0.7];
 /// The entry of the menu above the answers.
 const BELONGS: u32 = 10;
@@ -39,12 +38,7 @@ fn target(id: &str, scene: &SceneView, draft: &Draft) -> InteractiveMarker {
     let target = &scene.target;
     let beside_m = [scene.width_m + target.size_x_m, 0.5 * scene.depth_m];
     let [x_m, y_m] = draft.at_m.unwrap_or(beside_m);
-    let body = Marker {
-        r#type: if target.shape == "box" { Marker::CUBE } else { Marker::CYLINDER },
-        scale: Vector3 { x: target.size_x_m, y: target.size_y_m, z: target.size_z_m },
-        color: colour(if draft.is_blocked { BLOCKED } else { TARGET }),
-        ..marker("", "target", 0)
-    };
+    let body = body("", "target", 0, target, if draft.is_blocked { BLOCKED } else { TARGET });
     let slide = InteractiveMarkerControl {
         name: "slide".into(),
         // The plane is across the control's own x axis, which this turns upwards.

@@ -1,6 +1,6 @@
 //! Which lesson comes next, and on what table.
 
-use crate::Settings;
+use super::Settings;
 use scene::{Object, Point, Shape};
 use serde_json::{Value, json};
 
@@ -42,7 +42,7 @@ impl Course {
     /// # Errors
     /// In a sentence, when the parameters are no setting.
     pub fn new(settings: &Settings) -> Result<Self, String> {
-        let targets = settings.targets()?;
+        let targets = settings.targets().map_err(|error| error.to_string())?;
         if targets.is_empty() {
             return Err("target_ids names nothing to place".to_owned());
         }
@@ -135,8 +135,7 @@ fn shape(object: &Object) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::{Course, Outcome};
-    use crate::Settings;
+    use super::{Course, Outcome, Settings};
     use scene::Point;
 
     fn breakfast() -> Course {

@@ -1,6 +1,6 @@
 //! The command line of `apprentice setting`.
 
-use crate::SettingError;
+use super::SettingError;
 use clap::Parser;
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ Exit codes:
   0  everything has its place
   1  something was left off the table, or a lesson failed
   2  the command line or a parameter is wrong
-  130, 143  interrupted; the same command with the same --session goes on";
+  129, 130, 143  interrupted; the same command with the same --session goes on";
 
 /// Flags that every lesson gets from the setting.
 const OWN: [&str; 4] = ["--scenario", "--session", "--summary", "--until-taught"];

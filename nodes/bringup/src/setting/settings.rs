@@ -1,7 +1,7 @@
 //! A setting as ROS parameters: what stands on the table, and what is to be placed, in order.
 
 use bus::{NodeSettings, ParameterSpec, Range};
-use scene::{ListError, Listed, Object, Point, Scene, listed_target};
+use scene::{ListError, Listed, Object, Point, Scene};
 use serde::{Deserialize, Serialize};
 
 /// The section `/**/setting` of a parameter file; the other sections of the file are for the nodes of every lesson.
@@ -66,46 +66,32 @@ impl Settings {
     /// Lists that do not fit together; a shape that is not known.
     pub fn objects(&self) -> Result<Vec<Object>, ListError> {
         let listed = Listed {
+            of: "object",
             ids: &self.object_ids,
             labels: &self.object_labels,
             shapes: &self.object_shapes,
             sizes_m: &self.object_sizes_m,
             supports: &self.object_supports,
         };
-        listed.fit("object_positions_m", self.object_positions_m.len(), 2, false)?;
-        listed.fit("object_yaws_rad", self.object_yaws_rad.len(), 1, true)?;
-        let standing = |(i, object): (usize, Object)| Object {
-            position_m: Point::new(self.object_positions_m[2 * i], self.object_positions_m[2 * i + 1]),
-            yaw_rad: self.object_yaws_rad.get(i).copied().unwrap_or(0.0),
-            ..object
-        };
-        Ok(listed.objects()?.into_iter().enumerate().map(standing).collect())
+        listed.standing(&self.object_positions_m, &self.object_yaws_rad)
     }
 
     /// What is to be placed, and where the simulated person wants it.
     ///
     /// # Errors
-    /// In a sentence: lists that do not fit together; a shape that is not known.
-    pub fn targets(&self) -> Result<Vec<(Object, String)>, String> {
-        let n = self.target_ids.len();
-        let fits = |name: &str, got: usize, each: usize, optional: bool| {
-            if got == n * each || (optional && got == 0) {
-                Ok(())
-            } else {
-                Err(format!("{name} has {got} entries; {} are needed for the {n} target_ids", n * each))
-            }
+    /// Lists that do not fit together; a shape that is not known.
+    pub fn targets(&self) -> Result<Vec<(Object, String)>, ListError> {
+        let listed = Listed {
+            of: "target",
+            ids: &self.target_ids,
+            labels: &self.target_labels,
+            shapes: &self.target_shapes,
+            sizes_m: &self.target_sizes_m,
+            supports: &[],
         };
-        fits("target_labels", self.target_labels.len(), 1, true)?;
-        fits("target_shapes", self.target_shapes.len(), 1, false)?;
-        fits("target_sizes_m", self.target_sizes_m.len(), 3, false)?;
-        fits("target_homes", self.target_homes.len(), 1, true)?;
-        let target = |(i, id): (usize, &String)| {
-            let label = self.target_labels.get(i).unwrap_or(id);
-            let object = listed_target(id, label, &self.target_shapes[i], &self.target_sizes_m[3 * i..3 * i + 3])
-                .map_err(|error| error.to_string())?;
-            Ok((object, self.target_homes.get(i).cloned().unwrap_or_default()))
-        };
-        self.target_ids.iter().enumerate().map(target).collect()
+        listed.fit("target_homes", self.target_homes.len(), 1, true)?;
+        let homes = self.target_homes.iter().cloned().chain(std::iter::repeat(String::new()));
+        Ok(listed.objects()?.into_iter().zip(homes).collect())
     }
 }
 
@@ -169,7 +155,7 @@ impl NodeSettings for Settings {
 
     fn check(&self) -> Result<(), String> {
         let objects = self.objects().map_err(|error| error.to_string())?;
-        let targets = self.targets()?;
+        let targets = self.targets().map_err(|error| error.to_string())?;
         let mut standing = objects;
         for (target, home) in targets {
             let is_there = home.is_empty() || home == CENTRE || standing.iter().any(|object| object.id == home);

@@ -1,19 +1,17 @@
 //! The command: lessons one after another.
 
-use crate::lessons::{self, Files, ending};
-use crate::{Course, Flags, Outcome, SettingError, Settings};
-use bus::{Arguments, ParameterError};
-use rustix::process::Signal;
+use super::lessons::{self, Files, ending};
+use super::{Course, Flags, Outcome, SettingError, Settings};
+use crate::session::{unused, write_whole};
+use crate::{BringupError, read_parameters};
+use bus::Arguments;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use signal_hook::iterator::Signals;
+use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Name and parameter file of the setting built in.
-const BREAKFAST: (&str, &str) = ("breakfast", include_str!("../../../config/breakfast.yaml"));
-const MAX_BYTES: u64 = 1 << 20;
+const BREAKFAST: (&str, &str) = ("breakfast", include_str!("../../../../config/breakfast.yaml"));
 
 /// Runs the command.
 pub fn run(flags: &Flags) -> ExitCode {
@@ -35,20 +33,14 @@ fn set(flags: &Flags) -> Result<u8, SettingError> {
     }
     let folder = flags.session.clone().unwrap_or_else(|| unused(&Path::new("bags").join(&name)));
     let file = folder.join("setting.yaml");
-    std::fs::create_dir_all(&folder).map_err(|source| SettingError::Write { path: folder.clone(), source })?;
+    std::fs::create_dir_all(&folder).map_err(|source| BringupError::Write { path: folder.clone(), source })?;
     match std::fs::read_to_string(&file) {
         Ok(known) if known != text => return Err(SettingError::Other { path: folder }),
         Ok(_) => {}
         Err(_) => write(&file, &text)?,
     }
     let mut course = course(&file)?;
-    let signals = [(Signal::INT, SIGINT), (Signal::TERM, SIGTERM), (Signal::HUP, SIGHUP)].map(|(signal, number)| {
-        let count = Arc::new(AtomicUsize::new(0));
-        let counted = Arc::clone(&count);
-        // SAFETY is signal-hook's: the action only counts.
-        signal_hook::flag::register_usize(number, counted, 1).map(|_| (signal, count))
-    });
-    let signals: Vec<_> = signals.into_iter().collect::<Result<_, _>>().map_err(SettingError::Start)?;
+    let mut signals = Signals::new([SIGINT, SIGTERM, SIGHUP]).map_err(SettingError::Start)?;
     let executable = std::env::current_exe().map_err(SettingError::Start)?;
 
     let mut endings: Vec<(String, String)> = Vec::new();
@@ -58,7 +50,7 @@ fn set(flags: &Flags) -> Result<u8, SettingError> {
             println!("== {} of {}: {}", lesson.number, course.len(), lesson.label);
             write(&files.parameters, &(lesson.parameters.clone() + &page(&folder)))?;
             let arguments = arguments(&file, &files, &flags.lesson);
-            if let Some(code) = lessons::run(&executable, &arguments, &lesson.id, &files, &signals)? {
+            if let Some(code) = lessons::run(&executable, &arguments, &lesson.id, &files, &mut signals)? {
                 println!(
                     "== interrupted; to go on: apprentice setting {} --session {}",
                     flags.setting,
@@ -76,8 +68,8 @@ fn set(flags: &Flags) -> Result<u8, SettingError> {
         endings.push((lesson.label.clone(), words));
         course.end(outcome);
         // Between two lessons there is nobody else to hear it.
-        if let Some((signal, _)) = signals.iter().find(|(_, count)| count.load(Ordering::Relaxed) > 0) {
-            return Ok(if *signal == Signal::INT { 130 } else { 143 });
+        if let Some(signal) = signals.pending().next() {
+            return Ok(u8::try_from(128 + signal).unwrap_or(1));
         }
     }
     let left = course.done().filter(|(_, outcome)| *outcome == Outcome::Left).count();
@@ -96,13 +88,8 @@ fn find(setting: &str) -> Result<(String, String), SettingError> {
     if !setting.contains('/') && !setting.ends_with(".yaml") && !setting.ends_with(".yml") {
         return Err(SettingError::Unknown { got: setting.chars().take(80).collect() });
     }
-    let path = PathBuf::from(setting);
-    let failed = |source| SettingError::Read { path: path.clone(), source };
-    let mut text = String::new();
-    std::fs::File::open(&path).map_err(failed)?.take(MAX_BYTES + 1).read_to_string(&mut text).map_err(failed)?;
-    if text.len() as u64 > MAX_BYTES {
-        return Err(SettingError::Parameters { path, reason: format!("it is longer than {MAX_BYTES} bytes") });
-    }
+    let path = Path::new(setting);
+    let text = read_parameters(path)?;
     let name = path.file_stem().map_or_else(|| "setting".into(), |stem| stem.to_string_lossy().into_owned());
     Ok((name, text))
 }
@@ -110,14 +97,14 @@ fn find(setting: &str) -> Result<(String, String), SettingError> {
 /// What the section /**/setting of a file asks for.
 fn course(file: &Path) -> Result<Course, SettingError> {
     let name = file.to_string_lossy();
-    // What the bus refuses names file and line already; what its rules refuse does not.
-    let refused = |reason: String| match reason.contains(name.as_ref()) {
-        true => SettingError::File(reason),
-        false => SettingError::Parameters { path: file.to_owned(), reason },
-    };
+    let refused = |reason: String| SettingError::Parameters { path: file.to_owned(), reason };
     let words = ["--ros-args".to_owned(), "--params-file".to_owned(), name.clone().into_owned()];
-    let arguments = Arguments::parse(&words).map_err(|error| SettingError::File(error.to_string()))?;
-    let settings: Settings = arguments.settings().map_err(|error: ParameterError| refused(error.to_string()))?;
+    let arguments = Arguments::parse(&words).map_err(BringupError::from)?;
+    // What the bus refuses names file and line already; what the rules of a setting refuse does not.
+    let settings: Settings = arguments.settings().map_err(|error| match error.to_string() {
+        reason if reason.contains(name.as_ref()) => BringupError::from(error).into(),
+        reason => refused(reason),
+    })?;
     Course::new(&settings).map_err(refused)
 }
 
@@ -144,12 +131,6 @@ fn arguments(file: &Path, files: &Files, more: &[String]) -> Vec<String> {
     arguments
 }
 
-/// The path, or the path with the first of -2, -3, … that does not exist.
-fn unused(path: &Path) -> PathBuf {
-    let numbered = |n: u32| PathBuf::from(format!("{}-{n}", path.display()));
-    if path.exists() { (2..).map(numbered).find(|path| !path.exists()).unwrap_or_default() } else { path.to_owned() }
-}
-
-fn write(path: &Path, text: &str) -> Result<(), SettingError> {
-    std::fs::write(path, text).map_err(|source| SettingError::Write { path: path.to_owned(), source })
+fn write(path: &Path, text: &str) -> Result<(), BringupError> {
+    write_whole(path, text).map_err(|source| BringupError::Write { path: path.to_owned(), source })
 }

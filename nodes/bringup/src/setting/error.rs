@@ -1,5 +1,6 @@
 //! Why a table cannot be set.
 
+use crate::BringupError;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -14,9 +15,9 @@ pub enum SettingError {
         /// Why, in a sentence.
         reason: String,
     },
-    /// A file that is no parameter file.
-    #[error("{0}")]
-    File(String),
+    /// What would keep a lesson from beginning, too.
+    #[error(transparent)]
+    Bringup(#[from] BringupError),
     /// No such setting.
     #[error(
         "there is no setting '{got}'; known: breakfast, or the path of a parameter file with a section /**/setting"
@@ -24,22 +25,6 @@ pub enum SettingError {
     Unknown {
         /// Got.
         got: String,
-    },
-    /// A file cannot be read.
-    #[error("cannot read {path}: {source}")]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// A file cannot be written.
-    #[error("cannot write {path}: {source}")]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
     },
     /// The folder was begun with another setting.
     #[error("{path} was begun with other parameters; continue it with those, or begin a new folder with --session")]

@@ -1,15 +1,15 @@
 //! One lesson as a process of its own.
 
-use crate::{Lesson, Outcome, SettingError};
+use super::{Lesson, Outcome, SettingError};
 use rustix::process::{Pid, Signal, kill_process};
 use scene::Point;
 use serde::Deserialize;
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
 use std::io::Read;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::process::Command;
 use std::time::Duration;
 
 /// How often the process and the signals are looked at.
@@ -80,31 +80,23 @@ pub(crate) fn ending(files: &Files) -> Option<Ending> {
     }
 }
 
-/// Whom signals reach, and how often.
-pub(crate) type Signals = [(Signal, Arc<AtomicUsize>)];
-
-/// Runs a lesson to its end: `None` when it was ended from outside, with the exit code of that.
+/// Runs a lesson to its end: `None` when it came to one, or the exit code when it was ended from outside.
 pub(crate) fn run(
     executable: &Path,
     arguments: &[String],
     id: &str,
     files: &Files,
-    signals: &Signals,
+    signals: &mut Signals,
 ) -> Result<Option<i32>, SettingError> {
-    // In a group of its own, so that a Ctrl-C reaches it once: through here.
+    // In a group of its own, so that each Ctrl-C reaches it once: through here.
     let mut child = Command::new(executable).args(arguments).process_group(0).spawn().map_err(SettingError::Start)?;
     let pid = Pid::from_child(&child);
-    let mut passed: Vec<usize> = vec![0; signals.len()];
     let status = loop {
-        for ((signal, count), passed) in signals.iter().zip(&mut passed) {
-            let came = count.load(Ordering::Relaxed);
-            if came > *passed {
-                *passed = came;
-                // It may have ended this very moment.
-                let _ = kill_process(pid, *signal);
-            }
+        for signal in signals.pending().filter_map(Signal::from_named_raw) {
+            // It may have ended this very moment.
+            let _ = kill_process(pid, signal);
         }
-        if let Some(status) = ended(&mut child)? {
+        if let Some(status) = child.try_wait().map_err(SettingError::Start)? {
             break status;
         }
         std::thread::sleep(POLL);
@@ -112,19 +104,14 @@ pub(crate) fn run(
     let code = status.code().unwrap_or_else(|| 128 + status.signal().unwrap_or(0));
     match code {
         0 => Ok(None),
-        130 | 143 => Ok(Some(code)),
+        _ if [SIGHUP, SIGINT, SIGTERM].contains(&(code - 128)) => Ok(Some(code)),
         _ => Err(SettingError::Lesson { id: id.to_owned(), code, logs: files.session.join("logs") }),
     }
 }
 
-fn ended(child: &mut Child) -> Result<Option<std::process::ExitStatus>, SettingError> {
-    child.try_wait().map_err(SettingError::Start)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Files, ending};
-    use crate::{Lesson, Outcome};
+    use super::{Files, Lesson, Outcome, ending};
     use scene::Point;
 
     #[test]
