@@ -70,7 +70,7 @@ where
 fn every_message_agrees_with_an_independent_implementation() {
     let golden = Golden::read();
     let mut seen = BTreeSet::new();
-    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 149] = [
+    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 150] = [
         check::<msg::ActionDemonstration>,
         check::<msg::ArmModel>,
         check::<msg::ArmMotion>,
@@ -120,6 +120,7 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<action_msgs::GoalStatusArray>,
         check::<builtin_interfaces::Duration>,
         check::<builtin_interfaces::Time>,
+        check::<control_msgs::GripperCommand>,
         check::<control_msgs::JointComponentTolerance>,
         check::<control_msgs::JointTolerance>,
         check::<diagnostic_msgs::DiagnosticArray>,
@@ -286,6 +287,7 @@ fn every_action_goes_there_and_back() {
     let mut seen = BTreeSet::new();
     check_action::<action::PlaceObject>(&mut seen, &golden);
     check_action::<control_msgs::FollowJointTrajectory>(&mut seen, &golden);
+    check_action::<control_msgs::GripperCommandAction>(&mut seen, &golden);
     assert!(seen.iter().eq(all_actions()), "every action stands in this test");
 }
 

@@ -64,6 +64,10 @@ impl PlaceObjectResult {
     pub const GOAL_IN_COLLISION: u8 = 14;
     /// a joint is beyond its limits
     pub const OUTSIDE_LIMITS: u8 = 15;
+    /// the arm cannot pick the object up from where it stands, or nobody knows where that is
+    pub const CANNOT_PICK: u8 = 16;
+    /// the gripper closed and there was nothing in it, or it did not move
+    pub const GRASP_FAILED: u8 = 17;
 }
 
 impl crate::Message for PlaceObjectResult {

@@ -145,6 +145,127 @@ impl crate::Message for FollowJointTrajectoryFeedbackMessage {
     const TYPE: &'static str = "control_msgs/action/FollowJointTrajectory_FeedbackMessage";
 }
 
+/// The message `control_msgs/action/GripperCommand_Goal`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct GripperCommandGoal {
+    /// (`GripperCommand`)
+    pub command: super::control_msgs::GripperCommand,
+}
+
+impl crate::Message for GripperCommandGoal {
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_Goal";
+}
+
+/// The message `control_msgs/action/GripperCommand_Result`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct GripperCommandResult {
+    /// (`float64`)
+    pub position: f64,
+    /// (`float64`)
+    pub effort: f64,
+    /// (`bool`)
+    pub stalled: bool,
+    /// (`bool`)
+    pub reached_goal: bool,
+}
+
+impl crate::Message for GripperCommandResult {
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_Result";
+}
+
+/// The message `control_msgs/action/GripperCommand_Feedback`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct GripperCommandFeedback {
+    /// (`float64`)
+    pub position: f64,
+    /// (`float64`)
+    pub effort: f64,
+    /// (`bool`)
+    pub stalled: bool,
+    /// (`bool`)
+    pub reached_goal: bool,
+}
+
+impl crate::Message for GripperCommandFeedback {
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_Feedback";
+}
+
+/// The message `control_msgs/action/GripperCommand_SendGoal_Request`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct GripperCommandSendGoalRequest {
+    /// (`unique_identifier_msgs/UUID`)
+    pub goal_id: super::unique_identifier_msgs::UUID,
+    /// (`control_msgs/GripperCommand_Goal`)
+    pub goal: super::control_msgs::GripperCommandGoal,
+}
+
+impl crate::Message for GripperCommandSendGoalRequest {
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_SendGoal_Request";
+}
+
+/// The message `control_msgs/action/GripperCommand_SendGoal_Response`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GripperCommandSendGoalResponse {
+    /// (`bool`)
+    pub accepted: bool,
+    /// (`builtin_interfaces/Time`)
+    pub stamp: super::builtin_interfaces::Time,
+}
+
+impl crate::Message for GripperCommandSendGoalResponse {
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_SendGoal_Response";
+}
+
+/// The message `control_msgs/action/GripperCommand_GetResult_Request`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GripperCommandGetResultRequest {
+    /// (`unique_identifier_msgs/UUID`)
+    pub goal_id: super::unique_identifier_msgs::UUID,
+}
+
+impl crate::Message for GripperCommandGetResultRequest {
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_GetResult_Request";
+}
+
+/// The message `control_msgs/action/GripperCommand_GetResult_Response`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct GripperCommandGetResultResponse {
+    /// (`int8`)
+    pub status: i8,
+    /// (`control_msgs/GripperCommand_Result`)
+    pub result: super::control_msgs::GripperCommandResult,
+}
+
+impl crate::Message for GripperCommandGetResultResponse {
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_GetResult_Response";
+}
+
+/// The message `control_msgs/action/GripperCommand_FeedbackMessage`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct GripperCommandFeedbackMessage {
+    /// (`unique_identifier_msgs/UUID`)
+    pub goal_id: super::unique_identifier_msgs::UUID,
+    /// (`control_msgs/GripperCommand_Feedback`)
+    pub feedback: super::control_msgs::GripperCommandFeedback,
+}
+
+impl crate::Message for GripperCommandFeedbackMessage {
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_FeedbackMessage";
+}
+
+/// The message `control_msgs/msg/GripperCommand`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct GripperCommand {
+    /// (`float64`)
+    pub position: f64,
+    /// (`float64`)
+    pub max_effort: f64,
+}
+
+impl crate::Message for GripperCommand {
+    const TYPE: &'static str = "control_msgs/msg/GripperCommand";
+}
+
 /// The message `control_msgs/msg/JointComponentTolerance`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JointComponentTolerance {
@@ -214,6 +335,26 @@ impl crate::Service for FollowJointTrajectoryGetResult {
     const TYPE: &'static str = "control_msgs/action/FollowJointTrajectory_GetResult";
 }
 
+/// The service `control_msgs/action/GripperCommand_SendGoal`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GripperCommandSendGoal;
+
+impl crate::Service for GripperCommandSendGoal {
+    type Request = GripperCommandSendGoalRequest;
+    type Response = GripperCommandSendGoalResponse;
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_SendGoal";
+}
+
+/// The service `control_msgs/action/GripperCommand_GetResult`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GripperCommandGetResult;
+
+impl crate::Service for GripperCommandGetResult {
+    type Request = GripperCommandGetResultRequest;
+    type Response = GripperCommandGetResultResponse;
+    const TYPE: &'static str = "control_msgs/action/GripperCommand_GetResult";
+}
+
 /// The action `control_msgs/action/FollowJointTrajectory`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FollowJointTrajectory;
@@ -264,6 +405,60 @@ impl crate::Action for FollowJointTrajectory {
     }
 
     fn feedback_of(message: FollowJointTrajectoryFeedbackMessage) -> (super::unique_identifier_msgs::UUID, FollowJointTrajectoryFeedback) {
+        (message.goal_id, message.feedback)
+    }
+}
+
+/// The action `control_msgs/action/GripperCommand`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct GripperCommandAction;
+
+impl crate::Action for GripperCommandAction {
+    type Goal = GripperCommandGoal;
+    type Result = GripperCommandResult;
+    type Feedback = GripperCommandFeedback;
+    type SendGoal = GripperCommandSendGoal;
+    type GetResult = GripperCommandGetResult;
+    type FeedbackMessage = GripperCommandFeedbackMessage;
+    const TYPE: &'static str = "control_msgs/action/GripperCommand";
+
+    fn goal_request(goal_id: super::unique_identifier_msgs::UUID, goal: GripperCommandGoal) -> GripperCommandSendGoalRequest {
+        GripperCommandSendGoalRequest { goal_id, goal }
+    }
+
+    fn goal_of(request: GripperCommandSendGoalRequest) -> (super::unique_identifier_msgs::UUID, GripperCommandGoal) {
+        (request.goal_id, request.goal)
+    }
+
+    fn goal_response(accepted: bool, stamp: super::builtin_interfaces::Time) -> GripperCommandSendGoalResponse {
+        GripperCommandSendGoalResponse { accepted, stamp }
+    }
+
+    fn is_accepted(response: &GripperCommandSendGoalResponse) -> bool {
+        response.accepted
+    }
+
+    fn result_request(goal_id: super::unique_identifier_msgs::UUID) -> GripperCommandGetResultRequest {
+        GripperCommandGetResultRequest { goal_id }
+    }
+
+    fn result_id(request: &GripperCommandGetResultRequest) -> super::unique_identifier_msgs::UUID {
+        request.goal_id
+    }
+
+    fn result_response(status: i8, result: GripperCommandResult) -> GripperCommandGetResultResponse {
+        GripperCommandGetResultResponse { status, result }
+    }
+
+    fn result_of(response: GripperCommandGetResultResponse) -> (i8, GripperCommandResult) {
+        (response.status, response.result)
+    }
+
+    fn feedback_message(goal_id: super::unique_identifier_msgs::UUID, feedback: GripperCommandFeedback) -> GripperCommandFeedbackMessage {
+        GripperCommandFeedbackMessage { goal_id, feedback }
+    }
+
+    fn feedback_of(message: GripperCommandFeedbackMessage) -> (super::unique_identifier_msgs::UUID, GripperCommandFeedback) {
         (message.goal_id, message.feedback)
     }
 }

@@ -76,6 +76,7 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/WorldTrajectory",
     "builtin_interfaces/msg/Duration",
     "builtin_interfaces/msg/Time",
+    "control_msgs/msg/GripperCommand",
     "control_msgs/msg/JointComponentTolerance",
     "control_msgs/msg/JointTolerance",
     "diagnostic_msgs/msg/DiagnosticArray",
@@ -198,6 +199,7 @@ pub(crate) const SERVICES: &[&str] = &[
 pub(crate) const ACTIONS: &[&str] = &[
     "apprentice_msgs/action/PlaceObject",
     "control_msgs/action/FollowJointTrajectory",
+    "control_msgs/action/GripperCommand",
 ];
 
 /// Names and texts of all definitions, sorted by name.
@@ -250,6 +252,8 @@ uint8 UNKNOWN_OBJECT=12
 uint8 START_IN_COLLISION=13      # where the arm is now, it touches something
 uint8 GOAL_IN_COLLISION=14       # in reach, but the arm would touch something at each free place
 uint8 OUTSIDE_LIMITS=15          # a joint is beyond its limits
+uint8 CANNOT_PICK=16             # the arm cannot pick the object up from where it stands, or nobody knows where that is
+uint8 GRASP_FAILED=17            # the gripper closed and there was nothing in it, or it did not move
 
 uint8 outcome
 string reason                    # the same in one sentence
@@ -296,6 +300,9 @@ string robot_hash                # of the robot, as in ArmModel
 float64[] times_s                # from the start, ascending; empty without a motion
 float32[] poses                  # for each time the poses of ArmPose
 float64[] way_m                  # of the tool: x, y, z for each point of the plan's trajectory
+float64 held_from_s              # the target is in the hand from here
+float64 held_until_s             # to here
+geometry_msgs/Pose pick          # where the target stands before: the middle of its base; not numbers when it is in the hand
 SceneObject target               # where it will stand; without an extent when there is no place
 "#),
     ("apprentice_msgs/msg/ArmPart", r#"# A solid of a link, as the planner checks it for collisions.
@@ -510,6 +517,7 @@ uint8 START_IN_COLLISION=5       # where the arm is now, it touches something
 uint8 GOAL_IN_COLLISION=6        # in reach, but the arm would touch something at each free place
 uint8 JOINTS_UNKNOWN=7           # placements stand, but nothing is heard of a joint that moves the tool
 uint8 OUTSIDE_LIMITS=8           # a joint is beyond its limits
+uint8 CANNOT_PICK=9              # placements stand, but the arm cannot pick the target up from where it stands
 
 uint8 CELL_FREE=0
 uint8 CELL_OCCUPIED=1
@@ -531,7 +539,13 @@ float64 alpha
 string choice                    # map, mean, var, cvar or most_likely: which place is taken of those in reach
 PlacementCandidate[] candidates  # best first, those out of reach among them
 bool inside_bound                # the lesson is taught: the robot may move
-trajectory_msgs/JointTrajectory trajectory
+bool picks                       # the arm has to pick the target up; else it starts with the target in its hand
+geometry_msgs/Pose pick          # where the target stands then: the middle of its base; not numbers where nobody knows
+trajectory_msgs/JointTrajectory approach    # empty-handed, from the start to the grasp; empty unless it picks
+trajectory_msgs/JointTrajectory trajectory  # with the target in the hand, to where it is let go
+trajectory_msgs/JointTrajectory retreat     # empty-handed, away from it; empty without a gripper
+float64 grip_open                # where the gripper's joint is told to go to let the target in or out
+float64 grip                     # and to hold it; not numbers without a gripper
 uint32 map_side                  # the two maps are map_side x map_side cells, row-major, first row at y = 0
 float32[] reward_map             # mean reward over the draws
 uint8[] cell_state
@@ -949,6 +963,21 @@ string[] multi_dof_joint_names
 trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_desired
 trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_actual
 trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_error
+"#),
+    ("control_msgs/action/GripperCommand", r#"GripperCommand command
+---
+float64 position
+float64 effort
+bool stalled
+bool reached_goal
+---
+float64 position
+float64 effort
+bool stalled
+bool reached_goal
+"#),
+    ("control_msgs/msg/GripperCommand", r#"float64 position
+float64 max_effort
 "#),
     ("control_msgs/msg/JointComponentTolerance", r#"uint16 X_AXIS=1
 uint16 Y_AXIS=2

@@ -70,6 +70,12 @@ pub struct ArmMotion {
     pub poses: Vec<f32>,
     /// of the tool: x, y, z for each point of the plan's trajectory (`float64[]`)
     pub way_m: Vec<f64>,
+    /// the target is in the hand from here (`float64`)
+    pub held_from_s: f64,
+    /// to here (`float64`)
+    pub held_until_s: f64,
+    /// where the target stands before: the middle of its base; not numbers when it is in the hand (`geometry_msgs/Pose`)
+    pub pick: super::geometry_msgs::Pose,
     /// where it will stand; without an extent when there is no place (`SceneObject`)
     pub target: super::msg::SceneObject,
 }
@@ -619,8 +625,20 @@ pub struct PlacementPlan {
     pub candidates: Vec<super::msg::PlacementCandidate>,
     /// the lesson is taught: the robot may move (`bool`)
     pub inside_bound: bool,
-    /// (`trajectory_msgs/JointTrajectory`)
+    /// the arm has to pick the target up; else it starts with the target in its hand (`bool`)
+    pub picks: bool,
+    /// where the target stands then: the middle of its base; not numbers where nobody knows (`geometry_msgs/Pose`)
+    pub pick: super::geometry_msgs::Pose,
+    /// empty-handed, from the start to the grasp; empty unless it picks (`trajectory_msgs/JointTrajectory`)
+    pub approach: super::trajectory_msgs::JointTrajectory,
+    /// with the target in the hand, to where it is let go (`trajectory_msgs/JointTrajectory`)
     pub trajectory: super::trajectory_msgs::JointTrajectory,
+    /// empty-handed, away from it; empty without a gripper (`trajectory_msgs/JointTrajectory`)
+    pub retreat: super::trajectory_msgs::JointTrajectory,
+    /// where the gripper's joint is told to go to let the target in or out (`float64`)
+    pub grip_open: f64,
+    /// and to hold it; not numbers without a gripper (`float64`)
+    pub grip: f64,
     /// the two maps are map_side x map_side cells, row-major, first row at y = 0 (`uint32`)
     pub map_side: u32,
     /// mean reward over the draws (`float32[]`)
@@ -649,6 +667,8 @@ impl PlacementPlan {
     pub const JOINTS_UNKNOWN: u8 = 7;
     /// a joint is beyond its limits
     pub const OUTSIDE_LIMITS: u8 = 8;
+    /// placements stand, but the arm cannot pick the target up from where it stands
+    pub const CANNOT_PICK: u8 = 9;
     /// The constant `CELL_FREE`.
     pub const CELL_FREE: u8 = 0;
     /// The constant `CELL_OCCUPIED`.

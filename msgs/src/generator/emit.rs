@@ -25,7 +25,10 @@ pub(super) fn emit(sources: &[Source], resolved: &Resolved) -> Result<BTreeMap<S
     }
     for action in &resolved.actions {
         let text = modules.entry(module(&action.package, Kind::Action)).or_default();
-        emit_action(text, action);
+        // A standard package may call a message and an action alike.
+        let is_taken = |item: &Item| item.message.package == action.package && item.message.name == action.name;
+        let marker = if resolved.items.iter().any(is_taken) { "Action" } else { "" };
+        emit_action(text, action, marker);
     }
     let registry = emit_registry(sources, modules.keys());
     let mut files: BTreeMap<String, String> = modules
@@ -104,7 +107,8 @@ fn emit_service(out: &mut String, service: &ServiceItem) {
     );
 }
 
-fn emit_action(out: &mut String, action: &ActionItem) {
+/// `marker` is appended to the name of the type that stands for the whole action.
+fn emit_action(out: &mut String, action: &ActionItem, marker: &str) {
     let name = rust_name(&action.name);
     let type_name = format!("{}/action/{}", action.package, action.name);
     let id = "super::unique_identifier_msgs::UUID";
@@ -113,8 +117,8 @@ fn emit_action(out: &mut String, action: &ActionItem) {
         out,
         "\n/// The action `{type_name}`.\n\
          #[derive(Debug, Clone, Copy, PartialEq, Eq)]\n\
-         pub struct {name};\n\n\
-         impl crate::Action for {name} {{\n    \
+         pub struct {name}{marker};\n\n\
+         impl crate::Action for {name}{marker} {{\n    \
          type Goal = {name}Goal;\n    \
          type Result = {name}Result;\n    \
          type Feedback = {name}Feedback;\n    \

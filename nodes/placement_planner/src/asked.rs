@@ -64,6 +64,7 @@ impl PlacementPlanner {
             PlacementPlan::GOAL_IN_COLLISION => Some(PlaceObjectResult::GOAL_IN_COLLISION),
             PlacementPlan::JOINTS_UNKNOWN => Some(PlaceObjectResult::STALE_JOINTS),
             PlacementPlan::OUTSIDE_LIMITS => Some(PlaceObjectResult::OUTSIDE_LIMITS),
+            PlacementPlan::CANNOT_PICK => Some(PlaceObjectResult::CANNOT_PICK),
             _ => Some(PlaceObjectResult::NO_ROBOT),
         };
         let end = match failed {
@@ -74,16 +75,22 @@ impl PlacementPlanner {
                 refuse(&plan, PlaceObjectResult::NOT_TAUGHT, reason)
             }
             None => match self.obstacle(&now, &plan) {
-                Some(reason) => refuse(&plan, PlaceObjectResult::STALE_JOINTS, &reason),
-                None => deeds(self.carrier.start(now, plan, Some(goal_id))),
+                Some((outcome, reason)) => refuse(&plan, outcome, &reason),
+                None => deeds(self.start(now, plan, Some(goal_id))),
             },
         };
         outputs.extend(end);
         outputs
     }
 
-    /// Why the arm cannot be taken to be where a plan starts; `None` when it can.
-    pub(crate) fn obstacle(&self, now: &Time, plan: &PlacementPlan) -> Option<String> {
+    /// Why arm and target cannot be taken to be where a plan starts; `None` when they can.
+    pub(crate) fn obstacle(&self, now: &Time, plan: &PlacementPlan) -> Option<(u8, String)> {
+        let stale = |reason| (PlaceObjectResult::STALE_JOINTS, reason);
+        let lost = |reason| (PlaceObjectResult::CANNOT_PICK, reason);
+        self.arm_is_elsewhere(now, plan).map(stale).or_else(|| self.target_is_lost(now, plan).map(lost))
+    }
+
+    fn arm_is_elsewhere(&self, now: &Time, plan: &PlacementPlan) -> Option<String> {
         let Some(at) = &self.joints_at else { return Some("nothing is heard of the joints".into()) };
         let age_s = now.nanoseconds_since(at) as f64 * 1e-9;
         if age_s > self.settings.joint_age_s {

@@ -1,13 +1,13 @@
 //! Between messages and the planner's types.
 
 use apprentice_msgs::builtin_interfaces::Duration;
-use apprentice_msgs::geometry_msgs::Point as PointMessage;
+use apprentice_msgs::geometry_msgs::{Point as PointMessage, Pose};
 use apprentice_msgs::msg::{PlacementCandidate, PlacementPlan as PlanMessage};
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
-use exchange::point_to_message;
-use placement::{Candidate, CellState, PlanOutcome, Trajectory, Verdict};
+use exchange::{point_to_message, pose_at};
+use placement::{Candidate, CellState, PlanOutcome, Source, Stand, Trajectory, Verdict};
 use scene::Point;
 
 /// More joints than this are not taken from one message.
@@ -45,6 +45,7 @@ pub(crate) fn outcome(outcome: PlanOutcome) -> u8 {
         PlanOutcome::JointsUnknown => PlanMessage::JOINTS_UNKNOWN,
         PlanOutcome::OutsideLimits => PlanMessage::OUTSIDE_LIMITS,
         PlanOutcome::NoRobot => PlanMessage::NO_ROBOT,
+        PlanOutcome::CannotPick => PlanMessage::CANNOT_PICK,
     }
 }
 
@@ -73,6 +74,24 @@ pub(crate) fn candidate(candidate: Candidate) -> PlacementCandidate {
         },
         reason: candidate.reason,
     }
+}
+
+/// Where the target is: in the hand, or where a pose has the middle of its base, upright; a pose without numbers is of something
+/// that nobody sees.
+pub(crate) fn source(pick: Option<&Pose>) -> Source {
+    let Some(Pose { position: at, orientation: turn }) = pick else { return Source::Hand };
+    let yaw_rad = 2.0 * libm::atan2(turn.z, turn.w);
+    if [at.x, at.y, at.z, yaw_rad].iter().all(|number| number.is_finite()) {
+        Source::Stands(Stand { at_m: Point::new(at.x, at.y), base_m: at.z, yaw_rad })
+    } else {
+        Source::Unknown
+    }
+}
+
+/// The pose of something that nobody sees.
+pub(crate) fn unseen() -> Pose {
+    let position = PointMessage { x: f64::NAN, y: f64::NAN, z: f64::NAN };
+    Pose { position, ..pose_at([0.0; 3], 0.0) }
 }
 
 /// A place that may be missing: not numbers then.

@@ -9,8 +9,9 @@ mod robot;
 mod run;
 mod settings;
 mod sharing;
+mod target;
 
-pub use carrying::Deed;
+pub use carrying::{Deed, Fingers, Heard, Limb};
 pub use node::{Event, Output, PlacementPlanner, Request, is_task};
 pub use robot::{RobotFiles, RobotFilesError, RobotRefused};
 pub use run::run;

@@ -1,12 +1,13 @@
 //! The node as a state machine: posterior, question, table, robot and lesson in; guess, plan and motion out.
 
 use crate::asked::SAME_START;
-use crate::carrying::{Carrier, Deed};
+use crate::carrying::{Carrier, Deed, Heard};
 use crate::sharing::{Sharing, Way};
 use crate::{RobotFiles, Settings, convert};
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::control_msgs::FollowJointTrajectory;
+use apprentice_msgs::control_msgs::{FollowJointTrajectory, GripperCommandAction};
+use apprentice_msgs::geometry_msgs::{Pose, PoseStamped};
 use apprentice_msgs::moveit_msgs::PlanningScene;
 use apprentice_msgs::msg::{
     ArmModel, ArmMotion, ArmPose, LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, TableScene,
@@ -14,7 +15,7 @@ use apprentice_msgs::msg::{
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::visualization_msgs::MarkerArray;
-use bus::{ActionEvent, ActionRequest};
+use bus::{ActionEvent, ActionRequest, GoalId};
 use exchange::{check_posterior, is_about_a_table, is_about_scene, scene_from_message, stands_as};
 use placement::{LossBatch, MAP_SIDE, Manipulator, Planner};
 use scene::Scene;
@@ -36,15 +37,16 @@ pub enum Event {
     RobotSemantics(String),
     /// Where the arm is.
     Joints(JointState),
+    /// Where the target stands.
+    TargetPose(Box<PoseStamped>),
     /// Somebody asks for an object to be placed, or not any more.
     Place(ActionRequest<PlaceObject>),
     /// The controller tells of a motion.
     Controller(Box<ActionEvent<FollowJointTrajectory>>),
-    /// Some time has passed.
-    Tick {
-        /// Whether the controller can be heard.
-        controller_is_there: bool,
-    },
+    /// The gripper's controller tells of the fingers.
+    Gripper(Box<ActionEvent<GripperCommandAction>>),
+    /// Some time has passed; which controllers can be heard.
+    Tick(Heard),
     /// Time to send the newest outputs again.
     Republish,
 }
@@ -59,7 +61,7 @@ pub enum Output {
     /// What is to be done about a motion.
     Deed(Deed),
     /// A goal of `place_object` is taken.
-    Accept(bus::GoalId),
+    Accept(GoalId),
     /// The table for MoveIt.
     PlanningScene(Box<PlanningScene>),
     /// Where things stand, for tf.
@@ -87,6 +89,9 @@ pub struct Request<'a> {
     pub scene: &'a TableScene,
     /// Where the arm is.
     pub start: &'a JointState,
+    /// Where the target stands, to be picked up from there: the middle of its base, not numbers where nobody knows. None: it is in
+    /// the hand.
+    pub pick: Option<&'a Pose>,
     /// Whether the robot may move.
     pub inside_bound: bool,
 }
@@ -103,15 +108,20 @@ pub struct PlacementPlanner {
     pub(crate) joints: Vec<(String, f64)>,
     pub(crate) joints_at: Option<Time>,
     joints_wrong: bool,
+    /// Where the target was seen last, in the table's frame, and when that was heard.
+    pub(crate) target: Option<(Pose, Time)>,
+    pub(crate) target_wrong: bool,
     pub(crate) posterior: Option<Box<Posterior>>,
     query: Option<Box<PlacementQuery>>,
     pub(crate) scene: Option<Box<TableScene>>,
     pub(crate) taught: Option<u64>,
     guess: Option<Box<PlanMessage>>,
     pub(crate) plan: Option<Box<PlanMessage>>,
+    /// The revision whose plan was carried out, or begun to be, and the one whose target was put down.
     moved: Option<u64>,
+    pub(crate) put_down: Option<u64>,
     pub(crate) carrier: Carrier,
-    sharing: Sharing,
+    pub(crate) sharing: Sharing,
 }
 
 impl PlacementPlanner {
@@ -125,7 +135,7 @@ impl PlacementPlanner {
     pub fn with_files(settings: Settings, files: RobotFiles) -> Self {
         Self {
             planner: Planner::new(settings.motion()),
-            carrier: Carrier::new(!settings.controller.is_empty(), settings.patience_s),
+            carrier: Carrier::new(!settings.controller.is_empty(), settings.fingers(), settings.patience_s),
             settings,
             files,
             robot_hash: String::new(),
@@ -134,6 +144,8 @@ impl PlacementPlanner {
             joints: Vec::new(),
             joints_at: None,
             joints_wrong: false,
+            target: None,
+            target_wrong: false,
             posterior: None,
             query: None,
             scene: None,
@@ -141,6 +153,7 @@ impl PlacementPlanner {
             guess: None,
             plan: None,
             moved: None,
+            put_down: None,
             sharing: Sharing::default(),
         }
     }
@@ -161,16 +174,16 @@ impl PlacementPlanner {
         let joints = &self.joints;
         let way = |arm: Option<&Manipulator>, plan| arm.map(|arm| Way::new(arm, plan, joints)).unwrap_or_default();
         for output in outputs {
-            match output {
-                Output::Plan(plan) => shown.extend(self.sharing.draw(plan, &way(self.planner.manipulator(), plan))),
-                Output::Deed(Deed::Send(..)) => self.sharing.picked_up(),
-                // An empty trajectory only stops the arm.
-                Output::Deed(Deed::Publish(trajectory)) if !trajectory.points.is_empty() => self.sharing.picked_up(),
-                Output::Deed(Deed::Over(plan, result)) if result.outcome == PlaceObjectResult::DONE => {
-                    self.sharing.put_down(plan, &way(self.planner.manipulator(), plan));
-                }
-                _ => {}
+            if let Output::Plan(plan) = output {
+                shown.extend(self.sharing.draw(plan, &way(self.planner.manipulator(), plan)));
             }
+        }
+        if self.carrier.has_target() {
+            self.sharing.picked_up();
+        }
+        if let Some(plan) = self.carrier.take_put_down() {
+            self.put_down = Some(plan.revision);
+            self.sharing.put_down(&plan, &way(self.planner.manipulator(), &plan));
         }
         if self.plan.is_none() {
             shown.extend(self.sharing.wipe());
@@ -237,10 +250,10 @@ impl PlacementPlanner {
             }
             Event::Joints(joints) => return self.take_joints(now, &joints),
             Event::Place(request) => return self.place(now, request),
-            Event::Controller(event) => return deeds(self.carrier.hear(now, *event)),
-            Event::Tick { controller_is_there } => {
-                return deeds(self.carrier.tick(now, controller_is_there, &self.joints));
-            }
+            Event::TargetPose(message) => return self.take_target(now, &message),
+            Event::Controller(event) => return deeds(self.carrier.hear(now, &event)),
+            Event::Gripper(event) => return deeds(self.carrier.hear_gripper(now, &event)),
+            Event::Tick(heard) => return deeds(self.carrier.tick(now, heard, &self.joints)),
             Event::Republish => {
                 let guess = self.guess.iter().cloned().map(Output::Guess);
                 return guess.chain(self.plan.iter().cloned().map(Output::Plan)).collect();
@@ -263,7 +276,9 @@ impl PlacementPlanner {
             map_weights: &request.posterior.map_weights,
             threads: self.settings.n_threads(),
         };
-        let plan = self.planner.plan(&scene, &batch, self.settings.alpha, &joints);
+        let source = convert::source(request.pick);
+        let plan = self.planner.plan_from(&scene, &batch, self.settings.alpha, &joints, &source);
+        let [grip_open, grip] = plan.grip.unwrap_or([f64::NAN; 2]);
         let header = request.posterior.header.clone();
         Ok(PlanMessage {
             revision: request.posterior.revision,
@@ -281,7 +296,13 @@ impl PlacementPlanner {
             choice: self.settings.choice.clone(),
             candidates: plan.candidates.into_iter().map(convert::candidate).collect(),
             inside_bound: request.inside_bound,
+            picks: request.pick.is_some(),
+            pick: request.pick.copied().unwrap_or_else(convert::unseen),
+            approach: convert::trajectory(&header, plan.approach),
             trajectory: convert::trajectory(&header, plan.trajectory),
+            retreat: convert::trajectory(&header, plan.retreat),
+            grip_open,
+            grip,
             map_side: u32::try_from(MAP_SIDE).unwrap_or(0),
             reward_map: plan.reward_map,
             cell_state: plan.cell_state.into_iter().map(convert::cell).collect(),
@@ -356,6 +377,8 @@ impl PlacementPlanner {
                 query_id: &query.id,
                 scene: &query.scene,
                 start: &start,
+                // Nobody sees where the target would be on a table that is only imagined.
+                pick: None,
                 inside_bound: false,
             };
             match self.plan(&request) {
@@ -371,7 +394,9 @@ impl PlacementPlanner {
         let scene = self.scene.take();
         if let Some(scene) = scene.as_ref().filter(|_| self.plan.is_none()) {
             let inside_bound = self.taught == Some(posterior.revision) && is_task(scene, &posterior);
-            let request = Request { posterior: &posterior, query_id: "", scene, start: &start, inside_bound };
+            let pick = self.pick(scene);
+            let pick = pick.as_ref();
+            let request = Request { posterior: &posterior, query_id: "", scene, start: &start, pick, inside_bound };
             match self.plan(&request) {
                 Ok(plan) => {
                     let plan = Box::new(plan);
@@ -388,14 +413,20 @@ impl PlacementPlanner {
     }
 
     /// Moves by itself once the lesson is taught, once per revision, if the arm is known to be where the plan starts.
-    fn execute(&mut self, now: Time) -> Vec<Output> {
+    pub(crate) fn execute(&mut self, now: Time) -> Vec<Output> {
         let Some(plan) = &self.plan else { return Vec::new() };
         let may = self.settings.execute && plan.inside_bound && plan.outcome == PlanMessage::PLANNED;
         if !may || self.moved == Some(plan.revision) || self.carrier.is_busy() || self.obstacle(&now, plan).is_some() {
             return Vec::new();
         }
+        let plan = plan.clone();
+        deeds(self.start(now, plan, None))
+    }
+
+    /// Starts a motion; what was carried out for somebody is not carried out once more by itself.
+    pub(crate) fn start(&mut self, now: Time, plan: Box<PlanMessage>, asked: Option<GoalId>) -> Vec<Deed> {
         self.moved = Some(plan.revision);
-        deeds(self.carrier.start(now, plan.clone(), None))
+        self.carrier.start(now, plan, asked)
     }
 
     /// Calls a motion off that rests on what is not so any more.

@@ -1,15 +1,15 @@
 //! The node on the graph.
 
-use crate::{Deed, Event, Output, PlacementPlanner, RobotFiles, Settings};
+use crate::{Deed, Event, Heard, Limb, Output, PlacementPlanner, RobotFiles, Settings};
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
-use apprentice_msgs::control_msgs::FollowJointTrajectory;
+use apprentice_msgs::control_msgs::{FollowJointTrajectory, GripperCommandAction};
 use apprentice_msgs::moveit_msgs::PlanningScene;
 use apprentice_msgs::msg::{ArmModel, ArmMotion, ArmPose, PlacementPlan};
 use apprentice_msgs::std_msgs;
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
 use apprentice_msgs::visualization_msgs::MarkerArray;
-use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
+use bus::{ActionClient, Arguments, Bus, Graph, Level, NodeError, Qos};
 use std::time::Duration;
 
 /// How often a motion is looked after.
@@ -38,20 +38,25 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let srdf = |message: std_msgs::String| Event::RobotSemantics(message.data);
     bus.subscribe("/robot_description_semantic", Qos::State, srdf)?;
     bus.subscribe("/joint_states", Qos::Stream, Event::Joints)?;
+    bus.subscribe("target_pose", Qos::Stream, |message| Event::TargetPose(Box::new(message)))?;
     let place = bus.action_server::<PlaceObject>("place_object", Event::Place)?;
     let controller = match settings.controller.as_str() {
         "" => None,
         name => Some(bus.action_client::<FollowJointTrajectory>(name, |event| Event::Controller(Box::new(event)))?),
     };
-    bus.every(TICK, || Event::Tick { controller_is_there: false });
+    let gripper = match settings.gripper_controller.as_str() {
+        "" => None,
+        name => Some(bus.action_client::<GripperCommandAction>(name, |event| Event::Gripper(Box::new(event)))?),
+    };
+    bus.every(TICK, || Event::Tick(Heard::default()));
     bus.every(Duration::from_secs_f64(settings.republish_period_s), || Event::Republish);
     let mut node = PlacementPlanner::with_files(settings, files);
     while let Some((now, event)) = bus.next() {
         let event = match event {
-            Event::Tick { .. } => {
-                let controller_is_there = controller.as_ref().is_some_and(bus::ActionClient::has_server);
-                Event::Tick { controller_is_there }
-            }
+            Event::Tick(_) => Event::Tick(Heard {
+                arm: controller.as_ref().is_some_and(ActionClient::has_server),
+                gripper: gripper.as_ref().is_some_and(ActionClient::has_server),
+            }),
             event => event,
         };
         for output in node.step(now, event) {
@@ -68,24 +73,39 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                     plan.publish(&message)?;
                 }
                 Output::Accept(goal_id) => place.accept(goal_id),
-                Output::Deed(deed) => match (deed, &controller) {
-                    (Deed::Publish(message), _) => {
-                        log::info!("the arm moves: {} points", message.points.len());
+                Output::Deed(deed) => match deed {
+                    Deed::Publish(message) => {
+                        log::info!("{}: {} points", moves(&message.joint_names), message.points.len());
                         trajectory.publish(&message)?;
                     }
-                    (Deed::Send(goal_id, goal), Some(controller)) => {
+                    Deed::Send(goal_id, goal) => {
                         log::info!("the arm moves: {} points to the controller", goal.trajectory.points.len());
-                        controller.send_goal(goal_id, *goal)?;
+                        if let Some(controller) = &controller {
+                            controller.send_goal(goal_id, *goal)?;
+                        }
                     }
-                    (Deed::Cancel(goal_id), Some(controller)) => controller.cancel(goal_id)?,
-                    (Deed::AskResult(goal_id), Some(controller)) => controller.request_result(goal_id)?,
-                    (Deed::Send(..) | Deed::Cancel(_) | Deed::AskResult(_), None) => {}
-                    (Deed::Feedback(goal_id, feedback), _) => place.feedback(goal_id, feedback),
-                    (Deed::Finish(goal_id, end, result), _) => place.finish(goal_id, end, *result),
-                    (Deed::Over(_, result), _) if result.outcome == PlaceObjectResult::DONE => {
+                    Deed::Grip(goal_id, goal) => {
+                        log::info!("the gripper moves to {:.4}", goal.command.position);
+                        if let Some(gripper) = &gripper {
+                            gripper.send_goal(goal_id, goal)?;
+                        }
+                    }
+                    Deed::Cancel(limb, goal_id) => match (limb, &controller, &gripper) {
+                        (Limb::Arm, Some(controller), _) => controller.cancel(goal_id)?,
+                        (Limb::Gripper, _, Some(gripper)) => gripper.cancel(goal_id)?,
+                        _ => {}
+                    },
+                    Deed::AskResult(limb, goal_id) => match (limb, &controller, &gripper) {
+                        (Limb::Arm, Some(controller), _) => controller.request_result(goal_id)?,
+                        (Limb::Gripper, _, Some(gripper)) => gripper.request_result(goal_id)?,
+                        _ => {}
+                    },
+                    Deed::Feedback(goal_id, feedback) => place.feedback(goal_id, feedback),
+                    Deed::Finish(goal_id, end, result) => place.finish(goal_id, end, *result),
+                    Deed::Over(_, result) if result.outcome == PlaceObjectResult::DONE => {
                         log::info!("the motion is over: {}", result.reason);
                     }
-                    (Deed::Over(_, result), _) => log::warn!("the motion is over: {}", result.reason),
+                    Deed::Over(_, result) => log::warn!("the motion is over: {}", result.reason),
                 },
                 Output::PlanningScene(message) => planning_scene.publish(&message)?,
                 Output::Transforms(message) => transforms.publish(&message)?,
@@ -98,4 +118,9 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
         }
     }
     Ok(())
+}
+
+/// What a trajectory on the topic moves.
+fn moves(joints: &[String]) -> &'static str {
+    if joints.len() == 1 { "a joint moves" } else { "the arm moves" }
 }

@@ -1,7 +1,8 @@
 //! Parameters of the node.
 
 use bus::{NodeSettings, ParameterSpec, Range};
-use placement::{MotionSettings, TablePose};
+use crate::carrying::Fingers;
+use placement::{ClosingAxis, Gripper, MotionSettings, TablePose};
 use serde::{Deserialize, Serialize};
 
 /// Parameters of `placement_planner`.
@@ -18,6 +19,24 @@ pub struct Settings {
     pub threads: i64,
     /// The link between the fingertips, whose z axis points out of the hand.
     pub tool_link: String,
+    /// The joint that moves the fingers; empty: there is no gripper, and the target stays in the hand.
+    pub gripper_joint: String,
+    /// Where that joint is when the fingers touch each other, radians or metres.
+    pub gripper_closed: f64,
+    /// Where it is when they are as far apart as they go.
+    pub gripper_open: f64,
+    /// How far apart they are then, metres.
+    pub gripper_opening_m: f64,
+    /// The axis of the tool link along which they close: `x` or `y`.
+    pub gripper_axis: String,
+    /// The gripper's action, of the type `control_msgs/action/GripperCommand`; empty: its joint is moved on `/joint_trajectory`.
+    pub gripper_controller: String,
+    /// How hard it may press, as its controller understands it.
+    pub gripper_effort: f64,
+    /// Whether the target is picked up from where `target_pose` says it stands; else it is put into the hand.
+    pub pick: bool,
+    /// Nothing is picked up when the newest `target_pose` is older than this, seconds.
+    pub target_age_s: f64,
     /// Where the origin of the table's frame is in the robot's root link: x, y, z, metres; empty: a fixed link of the robot
     /// has the frame's name.
     pub table_position_m: Vec<f64>,
@@ -57,6 +76,15 @@ impl Default for Settings {
             alpha: 0.95,
             threads: 0,
             tool_link: motion.tool_link,
+            gripper_joint: String::new(),
+            gripper_closed: 0.0,
+            gripper_open: 0.075,
+            gripper_opening_m: 0.154,
+            gripper_axis: "y".to_owned(),
+            gripper_controller: String::new(),
+            gripper_effort: 20.0,
+            pick: false,
+            target_age_s: 5.0,
             table_position_m: Vec::new(),
             table_yaw_rad: 0.0,
             package_paths: Vec::new(),
@@ -103,6 +131,52 @@ impl NodeSettings for Settings {
             name: "tool_link",
             about: "link between the fingertips, whose z axis points out of the hand",
             range: Range::Any,
+        },
+        ParameterSpec {
+            name: "gripper_joint",
+            about: "joint that moves the fingers, others mimic it; empty: there is no gripper, and the target stays in the hand",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "gripper_closed",
+            about: "where that joint is when the fingers touch each other, radians or metres",
+            range: Range::Float { min: -10.0, max: 10.0 },
+        },
+        ParameterSpec {
+            name: "gripper_open",
+            about: "where it is when they are as far apart as they go, radians or metres",
+            range: Range::Float { min: -10.0, max: 10.0 },
+        },
+        ParameterSpec {
+            name: "gripper_opening_m",
+            about: "how far apart the fingers are then, metres: what is wider is taken by its rim if it is round, else not at all",
+            range: Range::Float { min: 0.001, max: 1.0 },
+        },
+        ParameterSpec {
+            name: "gripper_axis",
+            about: "axis of the tool link along which the fingers close",
+            range: Range::Choice(&["x", "y"]),
+        },
+        ParameterSpec {
+            name: "gripper_controller",
+            about: "action of a gripper's controller (control_msgs/action/GripperCommand), such as \
+                    /gripper_controller/gripper_cmd; empty: the joint is moved on /joint_trajectory",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "gripper_effort",
+            about: "how hard the fingers may press, as their controller understands it",
+            range: Range::Float { min: 0.0, max: 10_000.0 },
+        },
+        ParameterSpec {
+            name: "pick",
+            about: "whether the target is picked up from where target_pose says it stands; else somebody puts it into the hand",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "target_age_s",
+            about: "nothing is picked up when the newest target_pose is older than this, seconds",
+            range: Range::Float { min: 0.1, max: 3600.0 },
         },
         ParameterSpec {
             name: "table_position_m",
@@ -178,6 +252,12 @@ impl NodeSettings for Settings {
         if !(1..=128).contains(&self.tool_link.len()) {
             return Err(format!("tool_link has {} characters; 1 to 128 are allowed", self.tool_link.len()));
         }
+        if self.gripper_joint.is_empty() && (self.pick || !self.gripper_controller.is_empty()) {
+            return Err("picking something up takes a gripper: name its joint in gripper_joint".into());
+        }
+        if (self.gripper_open - self.gripper_closed).abs() < 1e-6 {
+            return Err("gripper_open and gripper_closed are the same position".into());
+        }
         match self.table_position_m.len() {
             0 | 3 => Ok(()),
             got => Err(format!("table_position_m has {got} entries; it must have 3 (x, y, z), or none")),
@@ -195,6 +275,7 @@ impl Settings {
         MotionSettings {
             choice: self.choice.parse().unwrap_or_default(),
             tool_link: self.tool_link.clone(),
+            gripper: self.gripper(),
             table: match *self.table_position_m.as_slice() {
                 [x, y, z] => Some(TablePose { position_m: [x, y, z], yaw_rad: self.table_yaw_rad }),
                 _ => None,
@@ -205,6 +286,22 @@ impl Settings {
             seed: self.seed.unsigned_abs(),
             ..MotionSettings::default()
         }
+    }
+
+    fn gripper(&self) -> Option<Gripper> {
+        (!self.gripper_joint.is_empty()).then(|| Gripper {
+            joint: self.gripper_joint.clone(),
+            closed: self.gripper_closed,
+            open: self.gripper_open,
+            opening_m: self.gripper_opening_m,
+            axis: if self.gripper_axis == "x" { ClosingAxis::X } else { ClosingAxis::Y },
+        })
+    }
+
+    /// The gripper, and how it is told.
+    pub(crate) fn fingers(&self) -> Option<Fingers> {
+        let has_controller = !self.gripper_controller.is_empty();
+        self.gripper().map(|gripper| Fingers { gripper, has_controller, effort: self.gripper_effort })
     }
 
     /// Threads to plan with.

@@ -101,6 +101,7 @@ fn a_plan_is_a_function_of_what_it_names() {
         query_id: &plan.query_id,
         scene: &plan.scene,
         start: &plan.start,
+        pick: None,
         inside_bound: plan.inside_bound,
     };
     assert_eq!(to_cdr(&other.plan(&request).expect("it was planned before")), to_cdr(&plan));

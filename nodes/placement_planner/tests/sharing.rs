@@ -119,7 +119,7 @@ fn things_have_frames_and_what_was_put_down_stands_there() {
     }
     show(&mut node, 10, Event::Joints(there));
     let seconds = last.time_from_start.sec + 3;
-    let shown = show(&mut node, 10 + seconds, Event::Tick { controller_is_there: false });
+    let shown = show(&mut node, 10 + seconds, Event::Tick(placement_planner::Heard::default()));
     assert_eq!(deeds(&shown.scenes[0]), [("table_top", ADD), ("cup", ADD), ("vase", ADD)]);
     let vase = shown.transforms[0].transforms.iter().find(|t| t.child_frame_id == "object/vase").expect("it stands");
     assert!((vase.transform.translation.x - 0.5).abs() < 1e-6 && vase.transform.translation.z == 0.0);

@@ -209,6 +209,7 @@ impl Lesson {
             query_id: &recorded.query_id,
             scene: &recorded.scene,
             start: &recorded.start,
+            pick: recorded.picks.then_some(&recorded.pick),
             inside_bound: recorded.query_id.is_empty()
                 && table.lesson.state == LessonStatus::TAUGHT
                 && is_task(&recorded.scene, &round.posterior),

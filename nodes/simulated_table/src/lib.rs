@@ -6,6 +6,7 @@ mod node;
 mod robot;
 mod run;
 mod settings;
+mod target;
 
 pub use follower::{Follower, TrajectoryError};
 pub use layout::{LayoutError, task_scene};

@@ -1,13 +1,15 @@
 //! The world as a pure state machine: time and trajectories in, the table and the arm's joints out.
 
+use crate::target::Target;
 use crate::{Follower, LayoutError, RobotError, RobotModel, Settings, task_scene};
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::geometry_msgs::{Transform, TransformStamped, Vector3};
+use apprentice_msgs::geometry_msgs::{PoseStamped, Transform, TransformStamped, Vector3};
 use apprentice_msgs::msg::TableScene;
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::std_msgs::{self, Header};
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
+use placement::Stand;
 use scene::Scene;
 use thiserror::Error;
 
@@ -33,6 +35,8 @@ pub enum Output {
     Transform(TFMessage),
     /// Where the joints are.
     Joints(JointState),
+    /// Where the thing to place is: the middle of its base.
+    TargetPose(PoseStamped),
     /// Something for the log.
     Warning(String),
 }
@@ -56,12 +60,17 @@ pub struct SimulatedTableNode {
     base_m: [f64; 3],
     base_yaw_rad: f64,
     follower: Follower,
+    target: Option<Target>,
+    /// Where it was said to be last, and when.
+    told: Option<(Stand, Time)>,
     announced: Option<Time>,
     announcements: u64,
 }
 
 /// The robot's description is said again with every so many announcements of the table.
 const ROBOT_EVERY: u64 = 5;
+/// Where the thing to place is is said this often while it stands, nanoseconds.
+const TARGET_EVERY_NS: i128 = 500_000_000;
 
 impl SimulatedTableNode {
     /// The world that the settings describe; `urdf` is the text of the robot's description.
@@ -71,8 +80,11 @@ impl SimulatedTableNode {
     pub fn new(settings: &Settings, urdf: String) -> Result<Self, TableError> {
         let robot = RobotModel::new(urdf, &settings.start_positions)?;
         let base = &settings.robot_base_position_m;
+        let scene = task_scene(settings)?;
         Ok(Self {
-            scene: task_scene(settings)?,
+            target: Target::new(settings, &robot, &scene)?,
+            told: None,
+            scene,
             follower: Follower::new(robot.joints.clone(), robot.start.clone()),
             robot,
             base_m: std::array::from_fn(|i| base.get(i).copied().unwrap_or(0.0)),
@@ -91,12 +103,33 @@ impl SimulatedTableNode {
     pub fn step(&mut self, now: Time, event: Event) -> Vec<Output> {
         match event {
             Event::Announce => self.announce(now),
-            Event::Tick => vec![Output::Joints(self.joints(now))],
+            Event::Tick => self.tick(now),
             Event::Trajectory(trajectory) => match self.follower.follow(now.nanoseconds(), &trajectory) {
                 Ok(()) => Vec::new(),
                 Err(error) => vec![Output::Warning(format!("ignored a joint trajectory: {error}"))],
             },
         }
+    }
+
+    fn tick(&mut self, now: Time) -> Vec<Output> {
+        let mut positions = self.follower.positions(now.nanoseconds());
+        if let Some(target) = &mut self.target {
+            target.follow(&self.scene, &mut positions);
+        }
+        let mut outputs = vec![Output::Joints(self.joints(now, positions))];
+        if let Some(target) = &self.target {
+            let stand = *target.stand();
+            let is_known = |(told, at): &(Stand, Time)| {
+                *told == stand && (0..TARGET_EVERY_NS).contains(&now.nanoseconds_since(at))
+            };
+            if !self.told.as_ref().is_some_and(is_known) {
+                self.told = Some((stand, now));
+                let header = Header { stamp: now, frame_id: self.scene.frame.clone() };
+                let pose = exchange::pose_at([stand.at_m.x, stand.at_m.y, stand.base_m], stand.yaw_rad);
+                outputs.push(Output::TargetPose(PoseStamped { header, pose }));
+            }
+        }
+        outputs
     }
 
     /// The table keeps the stamp of its first announcement: it has not changed since.
@@ -130,10 +163,10 @@ impl SimulatedTableNode {
         }
     }
 
-    fn joints(&self, now: Time) -> JointState {
+    fn joints(&self, now: Time, position: Vec<f64>) -> JointState {
         JointState {
             name: self.follower.joints().iter().map(|joint| joint.name.clone()).collect(),
-            position: self.follower.positions(now.nanoseconds()),
+            position,
             header: Header { stamp: now, frame_id: String::new() },
             ..JointState::default()
         }

@@ -29,6 +29,14 @@ pub enum RobotError {
     /// The text describes no usable robot.
     #[error("the robot description is wrong: {0}")]
     Urdf(#[from] UrdfError),
+    /// Something that a parameter names.
+    #[error("the robot has no {what} '{name}'")]
+    Missing {
+        /// A link or a joint.
+        what: &'static str,
+        /// Its name.
+        name: String,
+    },
     /// As many positions as joints.
     #[error("start_positions has {got} entries; the robot has {expected} joints that move: {names}")]
     StartPositions {
@@ -83,10 +91,7 @@ impl RobotModel {
     /// # Errors
     /// When the text is no usable URDF, or the start positions do not fit its joints; an empty list fits always.
     pub fn new(urdf: String, start_positions: &[f64]) -> Result<Self, RobotError> {
-        // Where the joints are is all that is told: collisions play no part, so no mesh is looked for.
-        let mut no_mesh = |_: &str| Err("it is not needed".to_owned());
-        let options = ReadOptions { missing: MissingMesh::Bound, ..ReadOptions::default() };
-        let robot = Robot::read(&urdf, &mut no_mesh, &options)?;
+        let robot = read(&urdf)?;
         let joints: Vec<JointModel> = (0..robot.dof())
             .map(|i| robot.driven_joint(i))
             .map(|joint| JointModel { name: joint.name.clone(), lower: joint.limits.lower, upper: joint.limits.upper })
@@ -108,4 +113,16 @@ impl RobotModel {
         let root = robot.links.first().map(|link| link.name.clone()).unwrap_or_default();
         Ok(Self { urdf, root, joints, start })
     }
+
+    /// The robot with all its links.
+    pub(crate) fn read(&self) -> Result<Robot, RobotError> {
+        read(&self.urdf)
+    }
+}
+
+fn read(urdf: &str) -> Result<Robot, RobotError> {
+    // Collisions play no part, so no mesh is looked for.
+    let mut no_mesh = |_: &str| Err("it is not needed".to_owned());
+    let options = ReadOptions { missing: MissingMesh::Bound, ..ReadOptions::default() };
+    Ok(Robot::read(urdf, &mut no_mesh, &options)?)
 }

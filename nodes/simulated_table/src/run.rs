@@ -22,6 +22,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let description = bus.publisher("/robot_description", Qos::State)?;
     let transform = bus.publisher("/tf_static", Qos::State)?;
     let joints = bus.publisher("/joint_states", Qos::Stream)?;
+    let target_pose = bus.publisher("target_pose", Qos::Stream)?;
     bus.subscribe("/joint_trajectory", Qos::Event, Event::Trajectory)?;
     bus.every(JOINT_PERIOD, || Event::Tick);
     bus.every(SCENE_PERIOD, || Event::Announce);
@@ -33,6 +34,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Output::Scene(message) => scene.publish(&message)?,
                 Output::RobotDescription(message) => description.publish(&message)?,
                 Output::Transform(message) => transform.publish(&message)?,
+                Output::TargetPose(message) => target_pose.publish(&message)?,
                 Output::Joints(message) => joints.publish(&message)?,
                 Output::Warning(text) => log::warn!("{text}"),
             }

@@ -37,6 +37,22 @@ pub struct Settings {
     pub target_shape: String,
     /// Three extents, metres.
     pub target_size_m: Vec<f64>,
+    /// Where the thing to place stands at first (x, y), metres; it may be beside the table. Empty: it is in the robot's hand.
+    pub target_position_m: Vec<f64>,
+    /// How it is turned about the vertical there, radians.
+    pub target_yaw_rad: f64,
+    /// The link between the fingertips, whose z axis points out of the hand.
+    pub tool_link: String,
+    /// The joint that moves the fingers; empty: there is no gripper.
+    pub gripper_joint: String,
+    /// Where that joint is when the fingers touch each other, radians or metres.
+    pub gripper_closed: f64,
+    /// Where it is when they are as far apart as they go.
+    pub gripper_open: f64,
+    /// How far apart they are then, metres.
+    pub gripper_opening_m: f64,
+    /// The axis of the tool link along which they close: "x" or "y".
+    pub gripper_axis: String,
     /// A URDF file; empty: the arm built in.
     pub urdf: String,
     /// Where the robot's root link is in the table's frame (x, y, z), metres.
@@ -65,6 +81,14 @@ impl Default for Settings {
             target_label: "target".to_owned(),
             target_shape: "cylinder".to_owned(),
             target_size_m: vec![0.08, 0.08, 0.2],
+            target_position_m: Vec::new(),
+            target_yaw_rad: 0.0,
+            tool_link: "tool0".to_owned(),
+            gripper_joint: String::new(),
+            gripper_closed: 0.0,
+            gripper_open: 0.075,
+            gripper_opening_m: 0.154,
+            gripper_axis: "y".to_owned(),
             urdf: String::new(),
             robot_base_position_m: vec![0.0, 0.0, 0.0],
             robot_base_yaw_rad: 0.0,
@@ -117,6 +141,46 @@ impl NodeSettings for Settings {
         ParameterSpec { name: "target_label", about: "what people call it", range: Range::Any },
         ParameterSpec { name: "target_shape", about: "its shape", range: SHAPES },
         ParameterSpec { name: "target_size_m", about: "its three extents: x, y, z, metres", range: EXTENT_M },
+        ParameterSpec {
+            name: "target_position_m",
+            about: "where it stands at first: x, y, metres, on the table or beside it; empty: in the robot's hand",
+            range: POSITION_M,
+        },
+        ParameterSpec {
+            name: "target_yaw_rad",
+            about: "how it is turned about the vertical there, radians",
+            range: ANGLE_RAD,
+        },
+        ParameterSpec {
+            name: "tool_link",
+            about: "link between the fingertips, whose z axis points out of the hand",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "gripper_joint",
+            about: "joint that moves the fingers, others mimic it; empty: there is no gripper",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "gripper_closed",
+            about: "where that joint is when the fingers touch each other, radians or metres",
+            range: Range::Float { min: -10.0, max: 10.0 },
+        },
+        ParameterSpec {
+            name: "gripper_open",
+            about: "where it is when they are as far apart as they go, radians or metres",
+            range: Range::Float { min: -10.0, max: 10.0 },
+        },
+        ParameterSpec {
+            name: "gripper_opening_m",
+            about: "how far apart they are then, metres",
+            range: Range::Float { min: 0.001, max: 1.0 },
+        },
+        ParameterSpec {
+            name: "gripper_axis",
+            about: "axis of the tool link along which the fingers close",
+            range: Range::Choice(&["x", "y"]),
+        },
         ParameterSpec { name: "urdf", about: "a URDF file; empty: the arm built in", range: Range::Any },
         ParameterSpec {
             name: "robot_base_position_m",
@@ -137,6 +201,16 @@ impl NodeSettings for Settings {
 
     fn check(&self) -> Result<(), String> {
         crate::task_scene(self).map_err(|error| error.to_string())?;
+        if ![0, 2].contains(&self.target_position_m.len()) {
+            let got = self.target_position_m.len();
+            return Err(format!("target_position_m has {got} entries; it must have 2 (x, y), or none"));
+        }
+        if !self.target_position_m.is_empty() && self.gripper_joint.is_empty() {
+            return Err("what stands at target_position_m is picked up by a gripper: name its joint in gripper_joint".into());
+        }
+        if (self.gripper_open - self.gripper_closed).abs() < 1e-6 {
+            return Err("gripper_open and gripper_closed are the same position".into());
+        }
         match self.robot_base_position_m.len() {
             3 => Ok(()),
             got => Err(format!("robot_base_position_m has {got} entries; it must have 3 (x, y, z)")),

@@ -152,6 +152,20 @@ impl Chain {
         carried
     }
 
+    /// The same joints moving another point that is fixed to the tool: what was said of the tool's origin and axes is then said of
+    /// those of `tool_from_point`. [`Chain::tool`] stays the link.
+    pub fn moving_point(&self, tool_from_point: &Isometry3<f64>) -> Self {
+        let mut chain = self.clone();
+        let farther = tool_from_point.translation.vector.norm();
+        chain.last_from_tool *= tool_from_point;
+        chain.reach += farther;
+        let turns = |place: usize| self.segments.iter().filter(move |s| s.place == place && !s.slides);
+        for (place, lever) in chain.levers.iter_mut().enumerate() {
+            *lever += turns(place).map(|segment| segment.factor.abs() * farther).sum::<f64>();
+        }
+        chain
+    }
+
     /// root_from_tool, from a configuration of the whole robot.
     pub fn tool_pose(&self, q: &[f64]) -> Isometry3<f64> {
         let moved = self.segments.iter().fold(Isometry3::identity(), |pose, s| pose * s.before * s.motion(q));

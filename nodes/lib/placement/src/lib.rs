@@ -6,9 +6,11 @@
 mod access;
 mod candidate;
 mod choice;
+mod gripper;
 mod losses;
 mod manipulator;
 mod motion;
+mod picking;
 mod plan;
 mod reach;
 mod settings;
@@ -19,8 +21,10 @@ mod trajectory;
 
 pub use candidate::{Candidate, Verdict};
 pub use choice::{Choice, NEAR_M};
+pub use gripper::{ClosingAxis, Grasp, Gripper};
 pub use losses::{LossBatch, SceneLosses, placement_losses, placement_optima};
 pub use manipulator::{Manipulator, ManipulatorError, TABLE_THICKNESS_M, resting_height_m};
+pub use picking::{Source, Stand};
 pub use plan::{CellState, MAP_SIDE, PlacementPlan, PlanOutcome, Planner};
 pub use reach::ReachMap;
 pub use settings::{MotionSettings, TablePose};

@@ -1,5 +1,6 @@
 //! An arm as this crate uses it: a robot, the chain to its tool, and how it holds the target over a table.
 
+use crate::gripper::{ClosingAxis, Grasp, Gripper};
 use crate::settings::{ABOVE_MARGIN_M, LEAST_APPROACH_M};
 use crate::{MotionSettings, TablePose};
 use arm::{
@@ -41,6 +42,14 @@ pub enum ManipulatorError {
         /// Its limit.
         got: f64,
     },
+    /// The joint of the gripper.
+    #[error("the gripper cannot be moved by joint '{joint}': {reason}")]
+    Gripper {
+        /// The joint.
+        joint: String,
+        /// Why not.
+        reason: String,
+    },
 }
 
 /// A robot arm with a tool.
@@ -54,11 +63,16 @@ pub struct Manipulator {
 }
 
 /// An arm at a table, with the target in its hand.
+#[derive(Clone)]
 pub(crate) struct Cell<'a> {
     pub manipulator: &'a Manipulator,
+    /// Moves the point of the hand that is above the middle of the target when it is held.
+    pub chain: Chain,
     pub world: World,
-    root_from_table: Isometry3<f64>,
-    grip_height_m: f64,
+    /// How the target is held, or why it cannot be: the hand is then taken to be above its middle.
+    pub grasp: Result<Grasp, String>,
+    pub(crate) root_from_table: Isometry3<f64>,
+    pub(crate) grip_height_m: f64,
 }
 
 impl Manipulator {
@@ -86,6 +100,10 @@ impl Manipulator {
         if let Some(&still) = chain.entries.iter().find(|&&entry| limits(entry).velocity < SLOWEST) {
             let joint = robot.driven_joint(still).name.clone();
             return Err(ManipulatorError::Speed { joint, got: limits(still).velocity });
+        }
+        if let Some(gripper) = &settings.gripper {
+            check_gripper(&robot, &chain, gripper)
+                .map_err(|reason| ManipulatorError::Gripper { joint: gripper.joint.clone(), reason })?;
         }
         let model = match exclusions {
             Some(exclusions) => CollisionModel::new(&robot, exclusions),
@@ -147,6 +165,39 @@ impl Manipulator {
             }
         }
         q
+    }
+
+    /// A configuration with the gripper's joint where it is told to go.
+    pub(crate) fn with_gripper_at(&self, position: f64, q: &[f64]) -> Vec<f64> {
+        let mut q = q.to_vec();
+        let joint = self.settings.gripper.as_ref().and_then(|gripper| driven(&self.robot, &gripper.joint));
+        if let Some(entry) = joint {
+            q[entry] = position;
+        }
+        q
+    }
+
+    /// How the gripper takes hold of the target of a scene; `None` without a gripper.
+    ///
+    /// # Errors
+    /// In words: why it cannot.
+    pub fn grasp(&self, scene: &Scene) -> Option<Result<Grasp, String>> {
+        self.settings.gripper.as_ref().map(|gripper| gripper.grasp(&scene.target.shape))
+    }
+
+    /// How a held target is turned about the vertical, seen from the tool, radians.
+    pub fn turn_in_hand_rad(&self, scene: &Scene) -> f64 {
+        self.grasp(scene).and_then(Result::ok).map_or(0.0, |grasp| grasp.turn_rad)
+    }
+
+    /// The gripper.
+    pub fn gripper(&self) -> Option<&Gripper> {
+        self.settings.gripper.as_ref()
+    }
+
+    /// Which links the hand is made of, one entry per link.
+    pub(crate) fn hand(&self) -> &[bool] {
+        &self.hand
     }
 
     /// Every link in the table's frame, in the order of [`Robot::links`]. `None` where nobody says where the table is.
@@ -219,12 +270,43 @@ impl Manipulator {
         }
         let height = scene.target.shape.height_m();
         let grip_height_m = height - self.settings.grip_m.min(0.5 * height);
+        let grasp = self.grasp(scene).unwrap_or(Ok(Grasp::CENTRAL));
+        let held = grasp.clone().unwrap_or(Grasp::CENTRAL);
+        let axis = self.gripper().map_or(ClosingAxis::default(), |gripper| gripper.axis);
+        let tool_from_point = held.tool_from_point(axis);
         // The tool's z axis points down, the target's centre is below the tool.
-        let owner_from_solid = Isometry3::translation(0.0, 0.0, grip_height_m - 0.5 * height);
-        let held = Placed { solid: solid(&scene.target), owner_from_solid };
-        world.hold(&scene.target.id, self.chain.tool, held, self.hand.clone());
-        Some(Cell { manipulator: self, world, root_from_table, grip_height_m })
+        let below = Isometry3::from_parts(Translation3::new(0.0, 0.0, grip_height_m - 0.5 * height), about_z(held.turn_rad));
+        let placed = Placed { solid: solid(&scene.target), owner_from_solid: tool_from_point * below };
+        world.hold(&scene.target.id, self.chain.tool, placed, self.hand.clone());
+        let chain = self.chain.moving_point(&tool_from_point);
+        Some(Cell { manipulator: self, chain, world, grasp, root_from_table, grip_height_m })
     }
+}
+
+/// The entry of a joint in a configuration.
+fn driven(robot: &Robot, joint: &str) -> Option<usize> {
+    (0..robot.dof()).find(|&i| robot.driven_joint(i).name == joint)
+}
+
+fn check_gripper(robot: &Robot, chain: &Chain, gripper: &Gripper) -> Result<(), String> {
+    let Some(entry) = driven(robot, &gripper.joint) else {
+        return Err("no joint of that name can be driven; a joint that mimics another moves with that one".into());
+    };
+    if chain.entries.contains(&entry) {
+        return Err("it moves the tool".into());
+    }
+    let limits = robot.driven_joint(entry).limits;
+    for (what, at) in [("closed", gripper.closed), ("open", gripper.open)] {
+        if !(at >= limits.lower - 1e-6 && at <= limits.upper + 1e-6) {
+            let (lower, upper) = (limits.lower, limits.upper);
+            return Err(format!("{what} at {at:.4} is outside its limits {lower:.4} to {upper:.4}"));
+        }
+    }
+    let far = (gripper.open - gripper.closed).abs();
+    if !(far > 1e-6 && gripper.opening_m > 0.0) {
+        return Err("it does not open: open and closed are the same, or the opening is nothing".into());
+    }
+    Ok(())
 }
 
 impl Cell<'_> {
@@ -250,7 +332,8 @@ impl Cell<'_> {
     /// A configuration that puts the target's base `base_m` above a point and touches nothing, there and a little above;
     /// `None` when none was found.
     pub fn place(&self, at_m: Point, base_m: f64, start: &[f64], restarts: usize) -> Option<Vec<f64>> {
-        let Manipulator { robot, chain, settings, .. } = self.manipulator;
+        let Manipulator { robot, settings, .. } = self.manipulator;
+        let chain = &self.chain;
         let ik = IkSettings { restarts, seed: settings.seed, ..IkSettings::default() };
         let above = IkSettings { restarts: 0, ..ik };
         let lifted = self.goal(at_m, base_m + LEAST_APPROACH_M);
@@ -269,7 +352,7 @@ impl Cell<'_> {
     }
 }
 
-fn solid(object: &Object) -> Solid {
+pub(crate) fn solid(object: &Object) -> Solid {
     match object.shape {
         Shape::Cylinder { radius_m, height_m } => Solid::Cylinder { radius: radius_m, half_length: 0.5 * height_m },
         Shape::Box { width_m, depth_m, height_m } => {

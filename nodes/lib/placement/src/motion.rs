@@ -1,44 +1,98 @@
-//! From where the arm is to over the place, then straight down; every part proven free.
+//! With the target in the hand to over its place, straight down, and straight up again without it; every part proven free.
 
 use crate::access::Access;
+use crate::manipulator::Cell;
+use crate::picking::Stand;
 use crate::settings::{LEAST_APPROACH_M, TOOL_STEP_M};
 use crate::space::ArmSpace;
 use crate::trajectory::Trajectory;
-use arm::{IkOutcome, IkSettings, Vector3, solutions, solve};
+use arm::{Goal, IkOutcome, IkSettings, Vector3, solutions, solve};
 use motion::{Limits, Metric, Path, Search, Space, connect, shorten, time};
-use scene::Point;
+use scene::{Point, Scene};
 
 /// A joint may change by no more than this while the tool goes up by one step: else the arm would have to turn over.
 const LARGEST_CHANGE: f64 = 0.2;
 /// Ways of holding the target over one place that are tried as ends of a search.
-const MOST_POSTURES: usize = 6;
+pub(crate) const MOST_POSTURES: usize = 6;
 /// Random starts to find them.
-const POSTURE_RESTARTS: usize = 12;
+pub(crate) const POSTURE_RESTARTS: usize = 12;
 /// How far the tool may be from the straight line down, metres.
 const OFF_LINE_M: f64 = 5e-4;
 /// Shortcuts that are tried on a way that was found.
 const SHORTCUTS: usize = 60;
 
-/// Plans a motion that ends with the target at a point; `None` when no free one was found.
-pub(crate) fn plan(access: &Access, current: &[f64], at_m: Point) -> Option<Trajectory> {
+/// A motion with the target in the hand, and the one that takes the empty hand away.
+pub(crate) struct Carried {
+    pub carry: Trajectory,
+    /// Empty without a gripper.
+    pub retreat: Trajectory,
+}
+
+/// Plans a motion from a configuration of the whole robot that ends with the target at a point, and from there straight up again
+/// once a gripper has let go; `None` when no free one was found.
+pub(crate) fn plan(access: &Access, scene: &Scene, start: &[f64], at_m: Point) -> Option<Carried> {
     let cell = &access.cell;
-    let settings = &cell.manipulator.settings;
-    let mut space = ArmSpace::new(cell, current);
-    let limits = Limits::from_velocity(space.velocities(), settings.acceleration_s).ok()?;
-    let metric = Metric::of_limits(&limits);
-    let ups: Vec<Path> =
-        postures(access, current, at_m).iter().filter_map(|place| lift(access, &mut space, place, at_m)).collect();
-    let tops: Vec<Vec<f64>> = ups.iter().map(|up| up.end().to_vec()).collect();
-    let search = Search { samples: settings.samples, seed: settings.seed, ..Search::default() };
-    let start = space.part(current);
-    let over = connect(&mut space, &metric, &start, &tops, &search).ok()?;
-    let over = shorten(&mut space, &metric, &over, SHORTCUTS, settings.seed);
-    let down = ups.iter().find(|up| up.end() == over.end())?.reversed();
-    let mut timed = time(&mut space, &over, &limits, settings.sample_s).ok()?;
-    timed.append(&time(&mut space, &down, &limits, settings.sample_s).ok()?, 0.0);
-    // What is sent is what is checked: the very points, whatever was proven of the path they were taken from.
-    let free = timed.points.windows(2).all(|pair| space.edge_touches_nothing(&pair[0].positions, &pair[1].positions));
-    free.then(|| Trajectory::new(cell.manipulator, timed))
+    let pace = Pace::new(cell, start)?;
+    let mut space = ArmSpace::new(cell, start);
+    let goal = |up_m: f64| cell.goal(at_m, access.base_m(at_m) + up_m);
+    let ups: Vec<(Vec<f64>, Path)> = postures(access, start, at_m)
+        .into_iter()
+        .filter_map(|place| rise(&mut space, &place, goal).map(|up| (place, up)))
+        .collect();
+    let tops: Vec<Vec<f64>> = ups.iter().map(|(_, up)| up.end().to_vec()).collect();
+    let over = pace.way(&mut space, start, &tops)?;
+    let (place, up) = ups.iter().find(|(_, up)| up.end() == over.end())?;
+    let mut carry = pace.timed(&mut space, &over)?;
+    carry.append(&pace.timed(&mut space, &up.reversed())?, 0.0);
+    let manipulator = cell.manipulator;
+    let retreat = match manipulator.gripper() {
+        None => Trajectory::default(),
+        Some(_) => {
+            let base_m = access.base_m(at_m) - manipulator.settings.release_m;
+            let yaw_rad = access.cell.heading_rad(place);
+            let left = cell.around(scene, &Stand { at_m, base_m, yaw_rad });
+            let mut space = ArmSpace::new(&left, start);
+            let up = rise(&mut space, place, goal)?;
+            Trajectory::new(manipulator, pace.timed(&mut space, &up)?)
+        }
+    };
+    Some(Carried { carry: Trajectory::new(manipulator, carry), retreat })
+}
+
+/// How an arm may move, and how its ways are looked for.
+pub(crate) struct Pace {
+    limits: Limits,
+    metric: Metric,
+    search: Search,
+    sample_s: f64,
+    seed: u64,
+}
+
+impl Pace {
+    /// As the settings say; `None` for an arm that cannot move.
+    pub fn new(cell: &Cell, q: &[f64]) -> Option<Self> {
+        let settings = &cell.manipulator.settings;
+        let velocities = ArmSpace::new(cell, q).velocities();
+        let limits = Limits::from_velocity(velocities, settings.acceleration_s).ok()?;
+        let metric = Metric::of_limits(&limits);
+        let search = Search { samples: settings.samples, seed: settings.seed, ..Search::default() };
+        Some(Self { limits, metric, search, sample_s: settings.sample_s, seed: settings.seed })
+    }
+
+    /// A short way from a configuration of the whole robot to one of several ends.
+    pub fn way(&self, space: &mut ArmSpace, start: &[f64], ends: &[Vec<f64>]) -> Option<Path> {
+        let start = space.part(start);
+        let found = connect(space, &self.metric, &start, ends, &self.search).ok()?;
+        Some(shorten(space, &self.metric, &found, SHORTCUTS, self.seed))
+    }
+
+    /// When to be where on a way. What is sent is what is checked: the very points, whatever was proven of the path they were
+    /// taken from.
+    pub fn timed(&self, space: &mut ArmSpace, path: &Path) -> Option<motion::Trajectory> {
+        let timed = time(space, path, &self.limits, self.sample_s).ok()?;
+        let free = timed.points.windows(2).all(|pair| space.edge_touches_nothing(&pair[0].positions, &pair[1].positions));
+        free.then_some(timed)
+    }
 }
 
 /// Configurations that put the target at a point, those near to known ones first.
@@ -50,28 +104,26 @@ fn postures(access: &Access, current: &[f64], at_m: Point) -> Vec<Vec<f64>> {
     let ik = IkSettings { restarts: POSTURE_RESTARTS, seed: manipulator.settings.seed, ..IkSettings::default() };
     let goal = cell.goal(at_m, access.base_m(at_m));
     let mut checker = manipulator.checker();
-    let more = solutions(&manipulator.robot, &manipulator.chain, &goal, current, &ik, MOST_POSTURES);
+    let more = solutions(&manipulator.robot, &cell.chain, &goal, current, &ik, MOST_POSTURES);
     found.extend(more.into_iter().filter(|q| cell.is_free(q, &mut checker)));
     found.dedup();
     found.truncate(MOST_POSTURES);
     found
 }
 
-/// Straight up from a place, as far as the settings ask or the arm reaches; `None` when that is not far enough to come from
-/// above.
-fn lift(access: &Access, space: &mut ArmSpace, place: &[f64], at_m: Point) -> Option<Path> {
-    let cell = &access.cell;
+/// Straight up from a configuration of the whole robot, as far as the settings ask or the arm reaches; `goal` says where the hand
+/// is so much higher, metres. `None` when that is not far enough to come from above.
+pub(crate) fn rise(space: &mut ArmSpace, bottom: &[f64], goal: impl Fn(f64) -> Goal) -> Option<Path> {
+    let cell = space.cell();
     let manipulator = cell.manipulator;
     let settings = &manipulator.settings;
-    let base_m = access.base_m(at_m);
     let ik = IkSettings { restarts: 0, seed: settings.seed, ..IkSettings::default() };
-    let mut steps = vec![place.to_vec()];
+    let mut steps = vec![bottom.to_vec()];
     let n = (settings.approach_m / TOOL_STEP_M).ceil().max(1.0) as usize;
     for i in 1..=n {
         let height_m = settings.approach_m * i as f64 / n as f64;
-        let last = steps.last().expect("it starts with the place");
-        let goal = cell.goal(at_m, base_m + height_m);
-        let next = match solve(&manipulator.robot, &manipulator.chain, &goal, last, &ik, |_| true) {
+        let last = steps.last().expect("it starts with the bottom");
+        let next = match solve(&manipulator.robot, &cell.chain, &goal(height_m), last, &ik, |_| true) {
             IkOutcome::Solved(next) => next,
             _ => break,
         };

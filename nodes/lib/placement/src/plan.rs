@@ -6,6 +6,7 @@ use crate::choice::{Judge, Ranked};
 use crate::losses::{LossBatch, placement_optima};
 use crate::manipulator::{Manipulator, ManipulatorError};
 use crate::reach::ReachMap;
+use crate::picking::{Source, pick};
 use crate::trajectory::Trajectory;
 use crate::{Choice, MotionSettings, motion};
 use arm::{Exclusions, Robot};
@@ -43,6 +44,8 @@ pub enum PlanOutcome {
     NoPath,
     /// Placements stand, but no robot is known, or it does not stand at this table.
     NoRobot,
+    /// Placements stand, but the target cannot be picked up, or nobody knows where it is.
+    CannotPick,
 }
 
 /// One cell of a map.
@@ -73,8 +76,14 @@ pub struct PlacementPlan {
     pub robust_cvar_m: f64,
     /// The places that were considered, best first, each with what became of it.
     pub candidates: Vec<Candidate>,
-    /// Empty unless planned.
+    /// Empty-handed, from where the arm is to where the gripper closes; empty unless planned and the target has to be picked up.
+    pub approach: Trajectory,
+    /// With the target in the hand, to where it is let go; empty unless planned.
     pub trajectory: Trajectory,
+    /// Empty-handed, straight up from there; empty unless planned, and without a gripper.
+    pub retreat: Trajectory,
+    /// Where the gripper's joint is told to go to let the target in or out, and to hold it; `None` without one that can.
+    pub grip: Option<[f64; 2]>,
     /// Mean reward over the draws at the midpoints of [`MAP_SIDE`] × [`MAP_SIDE`] cells, row-major, first row at y = 0.
     pub reward_map: Vec<f32>,
     /// The cells' states in the same order.
@@ -126,6 +135,21 @@ impl Planner {
     /// # Panics
     /// When the numbers of draws, weights and objects do not fit together.
     pub fn plan(&mut self, scene: &Scene, batch: &LossBatch, alpha: f64, joints: &[(String, f64)]) -> PlacementPlan {
+        self.plan_from(scene, batch, alpha, joints, &Source::Hand)
+    }
+
+    /// The same with the target in the hand, or to be picked up from where it stands, which takes a gripper.
+    ///
+    /// # Panics
+    /// When the numbers of draws, weights and objects do not fit together.
+    pub fn plan_from(
+        &mut self,
+        scene: &Scene,
+        batch: &LossBatch,
+        alpha: f64,
+        joints: &[(String, f64)],
+        source: &Source,
+    ) -> PlacementPlan {
         let grid = Grid::midpoints(MAP_SIDE);
         let field = Field::new(&Rbf::new(scene), &grid, Some(scene));
         let mut plan = PlacementPlan {
@@ -136,7 +160,10 @@ impl Planner {
             map_cvar_m: f64::NAN,
             robust_cvar_m: f64::NAN,
             candidates: Vec::new(),
+            approach: Trajectory::default(),
             trajectory: Trajectory::default(),
+            retreat: Trajectory::default(),
+            grip: None,
             reward_map: mean_rewards(&field, batch),
             cell_state: cells(field.free(), |_| CellState::Free),
         };
@@ -164,11 +191,16 @@ impl Planner {
             self.reach = ReachMap::new(manipulator, scene, MAP_SIDE);
         }
         let reach = self.reach.as_ref().expect("the robot stands at this table");
-        let current = manipulator.configuration(joints);
+        let mut current = manipulator.configuration(joints);
+        if let (Some(gripper), Ok(grasp)) = (manipulator.gripper(), &cell.grasp) {
+            // Whatever the fingers do, they are not wider than open.
+            current = manipulator.with_gripper_at(gripper.let_in(grasp), &current);
+            plan.grip = Some([gripper.let_in(grasp), gripper.hold(grasp)]);
+        }
         let access = Access::new(cell, scene, reach, field.free(), &current);
         plan.cell_state =
             cells(field.free(), |i| if access.is_open(i) { CellState::Free } else { CellState::Unreachable });
-        task.finish(&mut plan, &access, joints, &current);
+        task.finish(&mut plan, &access, joints, &current, source);
         plan
     }
 }
@@ -184,7 +216,14 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    fn finish(&self, plan: &mut PlacementPlan, access: &Access, joints: &[(String, f64)], current: &[f64]) {
+    fn finish(
+        &self,
+        plan: &mut PlacementPlan,
+        access: &Access,
+        joints: &[(String, f64)],
+        current: &[f64],
+        source: &Source,
+    ) {
         let label = &self.scene.target.label;
         let manipulator = access.cell.manipulator;
         if !plan.cell_state.contains(&CellState::Free) {
@@ -235,15 +274,40 @@ impl Task<'_> {
             plan.reason = format!("{reason}; move it back by hand");
             return;
         }
-        if let Some((a, b)) = access.cell.contact(current) {
+        let empty_handed = match source {
+            Source::Hand => None,
+            Source::Stands(stand) => Some(access.cell.beside(self.scene, stand)),
+            Source::Unknown => {
+                plan.outcome = PlanOutcome::CannotPick;
+                plan.reason = format!("nothing is heard of where '{label}' stands");
+                return;
+            }
+        };
+        if let Err(reason) = &access.cell.grasp {
+            plan.outcome = PlanOutcome::CannotPick;
+            plan.reason = format!("the gripper cannot hold '{label}': {reason}");
+            return;
+        }
+        if let Some((a, b)) = empty_handed.as_ref().unwrap_or(&access.cell).contact(current) {
             plan.outcome = PlanOutcome::StartInCollision;
             plan.reason = format!("where the arm is now, '{a}' touches '{b}'; move it away by hand");
             return;
         }
+        let picked = match source {
+            Source::Stands(stand) => match pick(&access.cell, self.scene, stand, current) {
+                Ok(picked) => Some(picked),
+                Err(reason) => {
+                    (plan.outcome, plan.reason) = (PlanOutcome::CannotPick, reason);
+                    return;
+                }
+            },
+            Source::Hand | Source::Unknown => None,
+        };
+        let start = picked.as_ref().map_or(current, |picked| &picked.risen);
         plan.outcome = PlanOutcome::NoPath;
         let mut tried: Vec<Point> = Vec::new();
         for candidate in plan.candidates.iter_mut().filter(|one| one.verdict == Verdict::NextBest).take(MOST_TRIED) {
-            let Some(trajectory) = motion::plan(access, current, candidate.at_m) else {
+            let Some(carried) = motion::plan(access, self.scene, start, candidate.at_m) else {
                 candidate.verdict = Verdict::NoPath;
                 candidate.reason = "no collision-free motion leads there".into();
                 tried.push(candidate.at_m);
@@ -251,11 +315,16 @@ impl Task<'_> {
             };
             candidate.verdict = Verdict::Chosen;
             candidate.reason = "taken".into();
-            plan.trajectory = trajectory;
+            plan.trajectory = match &picked {
+                Some(picked) => carried.carry.after(&picked.up),
+                None => carried.carry,
+            };
+            plan.approach = picked.map_or(Trajectory::default(), |picked| Trajectory::new(manipulator, picked.approach));
+            plan.retreat = carried.retreat;
             plan.outcome = PlanOutcome::Planned;
             plan.robust_placement_m = Some(candidate.at_m);
             plan.robust_cvar_m = candidate.cvar_m;
-            let seconds = plan.trajectory.points.last().map_or(0.0, |point| point.time_from_start_s);
+            let seconds: f64 = [&plan.approach, &plan.trajectory, &plan.retreat].map(Trajectory::seconds).iter().sum();
             let detour = match tried.first() {
                 Some(&first) => format!("; no motion to {} was found", words(first)),
                 None => String::new(),

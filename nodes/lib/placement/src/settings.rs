@@ -1,6 +1,6 @@
 //! How the arm is to move.
 
-use crate::Choice;
+use crate::{Choice, Gripper};
 
 /// What a plan may assume of the arm and how careful it is to be.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +9,8 @@ pub struct MotionSettings {
     pub choice: Choice,
     /// The link whose origin is between the fingertips and whose z axis points out of the hand.
     pub tool_link: String,
+    /// What takes hold of the target; without one the target stays in the hand.
+    pub gripper: Option<Gripper>,
     /// Where the table's frame is in the robot's root frame, when no link of the robot has its name.
     pub table: Option<TablePose>,
     /// Things nearer than this count as touching, metres.
@@ -45,6 +47,7 @@ impl Default for MotionSettings {
         Self {
             choice: Choice::default(),
             tool_link: "tool0".into(),
+            gripper: None,
             table: None,
             margin_m: 0.003,
             release_m: 0.006,

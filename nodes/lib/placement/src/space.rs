@@ -38,6 +38,11 @@ impl<'a> ArmSpace<'a> {
         }
     }
 
+    /// Arm, surroundings and what is held.
+    pub fn cell(&self) -> &'a Cell<'a> {
+        self.cell
+    }
+
     /// The chain's part of a configuration.
     pub fn part(&self, q: &[f64]) -> Vec<f64> {
         self.cell.manipulator.chain.entries.iter().map(|&entry| q[entry]).collect()
@@ -53,7 +58,7 @@ impl<'a> ArmSpace<'a> {
     /// Where the tool is.
     pub fn tool(&mut self, part: &[f64]) -> arm::Isometry3<f64> {
         self.set(part, part);
-        self.cell.manipulator.chain.tool_pose(&self.from)
+        self.cell.chain.tool_pose(&self.from)
     }
 
     /// Whether nothing touches on a straight edge; without a margin, as a last check of what was planned with one.

@@ -66,25 +66,26 @@ pub(super) fn arm_pose(
     Some(ArmPose { header: header(now, frame), robot_hash: robot_hash.to_owned(), poses })
 }
 
-/// How it would carry out a plan: some moments of the trajectory, evenly spaced in time, the last among them.
+/// How it would carry out a plan: some moments of the motion, evenly spaced in time, the last among them, and those when the target
+/// comes into the hand and leaves it.
 pub(super) fn motion(plan: &PlacementPlan, way: &Way) -> ArmMotion {
-    let seconds: Vec<f64> = plan.trajectory.points.iter().map(|point| point.time_from_start.seconds()).collect();
-    let last = seconds.last().copied().unwrap_or(0.0);
-    let n = MAX_MOMENTS.min(way.poses.len());
-    let mut moments: Vec<usize> = (0..n)
-        .map(|i| {
-            let at = last * i as f64 / (n - 1).max(1) as f64;
-            seconds.partition_point(|s| *s < at).min(way.poses.len() - 1)
-        })
-        .collect();
+    let last_s = way.moments.last().map_or(0.0, |(s, _)| *s);
+    let n = MAX_MOMENTS.min(way.moments.len());
+    let even = (0..n).map(|i| last_s * i as f64 / (n - 1).max(1) as f64);
+    let first = |at_s: f64| way.moments.partition_point(|(s, _)| *s < at_s).min(way.moments.len().saturating_sub(1));
+    let mut moments: Vec<usize> = even.chain(way.held_s.into_iter().filter(|_| n > 0)).map(first).collect();
+    moments.sort_unstable();
     moments.dedup();
     ArmMotion {
         header: plan.scene.header.clone(),
         revision: plan.revision,
         robot_hash: plan.robot_hash.clone(),
-        times_s: moments.iter().map(|&i| seconds[i]).collect(),
-        poses: moments.iter().flat_map(|&i| flat(&way.poses[i])).collect(),
+        times_s: moments.iter().map(|&i| way.moments[i].0).collect(),
+        poses: moments.iter().flat_map(|&i| flat(&way.moments[i].1)).collect(),
         way_m: way.points_m.iter().flatten().copied().collect(),
+        held_from_s: way.held_s[0],
+        held_until_s: way.held_s[1],
+        pick: plan.pick,
         target: standing(plan, way).unwrap_or_default(),
     }
 }

@@ -36,6 +36,8 @@ pub(crate) struct Sharing {
 
 /// The links are told this often, at most, nanoseconds.
 const TOLD_EVERY_NS: i128 = 100_000_000;
+/// What is seen to have moved less is shown where it was, metres.
+const SEEN_M: f64 = 1e-3;
 /// A joint that moved less stands, radians or metres.
 const STANDS: f64 = 1e-3;
 
@@ -53,6 +55,19 @@ impl Sharing {
     /// The arm took the target in hand: it stands nowhere.
     pub(crate) fn picked_up(&mut self) {
         self.changed |= self.placed.take().is_some();
+    }
+
+    /// The target is seen to stand somewhere.
+    pub(crate) fn seen(&mut self, target: SceneObject) {
+        let far = |a: &SceneObject| {
+            let (a, b) = (&a.pose, &target.pose);
+            let by_m = (a.position.x - b.position.x).hypot(a.position.y - b.position.y);
+            by_m.max((a.position.z - b.position.z).abs()) > SEEN_M || a.orientation != b.orientation
+        };
+        if self.placed.as_ref().is_none_or(far) {
+            self.placed = Some(target);
+            self.changed = true;
+        }
     }
 
     /// The target of a plan stands where its way ends.

@@ -1,0 +1,153 @@
+//! A hand with two fingers: how far it opens, and how it takes hold of a thing.
+
+use arm::{Isometry3, Translation3, Vector3, about_z};
+use scene::Shape;
+use std::f64::consts::FRAC_PI_2;
+
+/// What is between the fingers of a thing that is wider than they open: its wall, metres. Plates and bowls are taken by the rim.
+const RIM_M: f64 = 0.008;
+/// Open fingers leave this much room on either side of what goes between them, metres, where the gripper opens that far.
+const ROOM_M: f64 = 0.01;
+/// Closing fingers are told to go this much beyond the surface of what they hold, metres: they stop there, and press.
+const SQUEEZE_M: f64 = 0.006;
+/// Fingers that came as near as this to where they were told to go hold nothing, metres between them.
+const NOTHING_M: f64 = 0.002;
+
+/// The axis of the tool link along which the fingers close.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ClosingAxis {
+    /// Its x axis.
+    X,
+    /// Its y axis.
+    #[default]
+    Y,
+}
+
+/// A gripper with two fingers, moved by one joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gripper {
+    /// The joint; what moves with it mimics it.
+    pub joint: String,
+    /// Where the joint is when the fingers touch each other, radians or metres.
+    pub closed: f64,
+    /// Where it is when they are as far apart as they go, radians or metres.
+    pub open: f64,
+    /// How far apart they are then, metres.
+    pub opening_m: f64,
+    /// Which way they close.
+    pub axis: ClosingAxis,
+}
+
+/// How a gripper takes hold of a thing from above.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grasp {
+    /// How wide it is where the fingers close, metres.
+    pub width_m: f64,
+    /// How far the tool is from the thing's own axis, along the closing axis, metres: 0, or at the rim.
+    pub aside_m: f64,
+    /// How the thing is turned about the vertical seen from the tool, radians.
+    pub turn_rad: f64,
+}
+
+impl Gripper {
+    /// How a thing is held; its narrower side goes between the fingers, else its rim if it is round.
+    ///
+    /// # Errors
+    /// In words: a box that is wider than the gripper opens.
+    pub fn grasp(&self, shape: &Shape) -> Result<Grasp, String> {
+        match *shape {
+            Shape::Cylinder { radius_m, .. } if 2.0 * radius_m <= self.opening_m => {
+                Ok(Grasp { width_m: 2.0 * radius_m, aside_m: 0.0, turn_rad: 0.0 })
+            }
+            Shape::Cylinder { radius_m, .. } => {
+                Ok(Grasp { width_m: RIM_M.min(self.opening_m), aside_m: radius_m - 0.5 * RIM_M, turn_rad: 0.0 })
+            }
+            Shape::Box { width_m, depth_m, .. } => {
+                let (narrow_m, closes_along_x) = if width_m < depth_m { (width_m, true) } else { (depth_m, false) };
+                if narrow_m > self.opening_m {
+                    let (wide, open) = (100.0 * narrow_m, 100.0 * self.opening_m);
+                    return Err(format!("it is {wide:.1} cm wide and the gripper opens {open:.1} cm"));
+                }
+                let turn_rad = if closes_along_x == (self.axis == ClosingAxis::X) { 0.0 } else { FRAC_PI_2 };
+                Ok(Grasp { width_m: narrow_m, aside_m: 0.0, turn_rad })
+            }
+        }
+    }
+
+    /// How far apart the fingers are with the joint at a position, metres.
+    pub fn apart_m(&self, position: f64) -> f64 {
+        (position - self.closed) / (self.open - self.closed) * self.opening_m
+    }
+
+    /// Where the joint is with the fingers so far apart, as near as it goes.
+    pub fn position(&self, apart_m: f64) -> f64 {
+        let share = (apart_m / self.opening_m).clamp(0.0, 1.0);
+        self.closed + share * (self.open - self.closed)
+    }
+
+    /// Where the joint is told to go to let a thing in or out.
+    pub fn let_in(&self, grasp: &Grasp) -> f64 {
+        self.position(grasp.width_m + 2.0 * ROOM_M)
+    }
+
+    /// Where the joint is told to go to hold it; the thing keeps it from getting there.
+    pub fn hold(&self, grasp: &Grasp) -> f64 {
+        self.position(grasp.width_m - SQUEEZE_M)
+    }
+
+    /// Whether fingers that were told to close to `told` and rest `at` have something between them.
+    pub fn has_something(&self, told: f64, at: f64) -> bool {
+        self.apart_m(at) - self.apart_m(told) > NOTHING_M
+    }
+}
+
+impl Grasp {
+    /// The tool above the middle of a thing.
+    pub(crate) const CENTRAL: Self = Self { width_m: 0.0, aside_m: 0.0, turn_rad: 0.0 };
+
+    /// The point of the tool link that stays above the middle of the thing: where it is in the tool's frame.
+    pub(crate) fn tool_from_point(&self, axis: ClosingAxis) -> Isometry3<f64> {
+        let along = match axis {
+            ClosingAxis::X => Vector3::x(),
+            ClosingAxis::Y => Vector3::y(),
+        };
+        Isometry3::from_parts(Translation3::from(along * -self.aside_m), about_z(0.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ClosingAxis, Gripper};
+    use scene::Shape;
+    use std::f64::consts::FRAC_PI_2;
+
+    fn gripper(axis: ClosingAxis) -> Gripper {
+        Gripper { joint: "finger".into(), closed: 0.7, open: 0.0, opening_m: 0.1, axis }
+    }
+
+    #[test]
+    fn the_narrow_side_goes_between_the_fingers_and_plates_are_taken_by_the_rim() {
+        let by_y = gripper(ClosingAxis::Y);
+        let held = by_y.grasp(&Shape::Box { width_m: 0.02, depth_m: 0.2, height_m: 0.01 }).expect("it fits");
+        assert_eq!((held.width_m, held.aside_m, held.turn_rad), (0.02, 0.0, FRAC_PI_2));
+        let held = by_y.grasp(&Shape::Box { width_m: 0.2, depth_m: 0.02, height_m: 0.01 }).expect("it fits");
+        assert_eq!((held.width_m, held.turn_rad), (0.02, 0.0));
+        let held = gripper(ClosingAxis::X).grasp(&Shape::Box { width_m: 0.02, depth_m: 0.2, height_m: 0.01 });
+        assert_eq!(held.expect("it fits").turn_rad, 0.0);
+        let plate = by_y.grasp(&Shape::Cylinder { radius_m: 0.12, height_m: 0.02 }).expect("by the rim");
+        assert!((plate.aside_m - 0.116).abs() < 1e-12 && plate.width_m == 0.008);
+        let why = by_y.grasp(&Shape::Box { width_m: 0.3, depth_m: 0.2, height_m: 0.05 }).expect_err("a tray");
+        assert_eq!(why, "it is 20.0 cm wide and the gripper opens 10.0 cm");
+    }
+
+    #[test]
+    fn fingers_that_close_on_something_stop_before_they_are_told_to() {
+        let gripper = gripper(ClosingAxis::Y);
+        let grasp = gripper.grasp(&Shape::Cylinder { radius_m: 0.02, height_m: 0.1 }).expect("it fits");
+        let (wide, told) = (gripper.let_in(&grasp), gripper.hold(&grasp));
+        // 6 of 10 cm open, 3.4 of 10 cm closed; 0.7 is closed.
+        assert!((wide - 0.28).abs() < 1e-12 && (told - 0.7 * 0.66).abs() < 1e-12);
+        assert!(gripper.has_something(told, 0.7 * 0.6), "4 cm between them");
+        assert!(!gripper.has_something(told, told) && !gripper.has_something(told, told - 0.01));
+    }
+}

@@ -1,0 +1,333 @@
+//! Picking up, carrying and putting down, from end to end: the planner and the simulated world in one process and in one's own time.
+
+use apprentice_msgs::action::{PlaceObjectFeedback, PlaceObjectGoal, PlaceObjectResult};
+use apprentice_msgs::builtin_interfaces::Time;
+use apprentice_msgs::geometry_msgs::PoseStamped;
+use apprentice_msgs::msg::{LessonStatus, PlacementPlan, Posterior, TableScene};
+use apprentice_msgs::{from_cdr, to_cdr};
+use bus::{ActionRequest, GoalId};
+use placement_planner::{Deed, Event, Heard, Output, PlacementPlanner, Request, Settings};
+use scene::Rbf;
+use simulated_table::{BUILT_IN_URDF, SimulatedTableNode};
+
+/// Where the thing to place stands at first: beside the table.
+const TRAY_M: [f64; 2] = [1.1, 0.15];
+const STEP_NS: i64 = 50_000_000;
+
+/// The planner, the world, and what the planner said.
+struct World {
+    planner: PlacementPlanner,
+    table: SimulatedTableNode,
+    now_ns: i64,
+    scene: TableScene,
+    pose: Option<PoseStamped>,
+    /// Whether the planner is told where the target is, and where it is told that it is, when that is not so.
+    sees: bool,
+    seen_at: Option<[f64; 2]>,
+    plan: Option<PlacementPlan>,
+    stages: Vec<u8>,
+    results: Vec<PlaceObjectResult>,
+}
+
+/// A cup, a mat on which things may stand, and a thing to place.
+fn table(target: &[f64; 3], shape: &str, at_m: &[f64]) -> simulated_table::Settings {
+    let words = |of: &[&str]| of.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>();
+    simulated_table::Settings {
+        object_ids: words(&["cup", "mat"]),
+        object_shapes: words(&["cylinder", "box"]),
+        object_sizes_m: vec![0.1, 0.1, 0.09, 0.2, 0.2, 0.01],
+        object_positions_m: vec![0.2, 0.25, 0.8, 0.8],
+        object_supports: vec![false, true],
+        target_shape: shape.to_owned(),
+        target_size_m: target.to_vec(),
+        target_position_m: at_m.to_vec(),
+        target_yaw_rad: 0.4,
+        gripper_joint: "finger_left".to_owned(),
+        start_positions: vec![0.0, -0.6, 2.2, 0.0, 1.54, 0.0, 0.05],
+        ..simulated_table::Settings::default()
+    }
+}
+
+/// All draws want the middle of the table.
+fn posterior(scene: &TableScene) -> Posterior {
+    let names = Rbf::names(&exchange::scene_from_message(scene).expect("a sound scene"));
+    let k = names.len();
+    let middle = names.iter().position(|name| name == "table centre").expect("a feature");
+    let weight = |i: usize| f64::from(u8::from(i % k == middle));
+    Posterior {
+        revision: 3,
+        task: scene.clone(),
+        n_chains: 4,
+        n_draws: 8,
+        draws: (0..8 * k).map(|i| weight(i) as f32).collect(),
+        map_weights: (0..k).map(weight).collect(),
+        feature_names: names,
+        ..Posterior::default()
+    }
+}
+
+fn settings() -> Settings {
+    Settings { gripper_joint: "finger_left".into(), pick: true, execute: false, speed: 1.0, ..Settings::default() }
+}
+
+impl World {
+    fn new(settings: Settings, table: &simulated_table::Settings) -> Self {
+        let table = SimulatedTableNode::new(table, BUILT_IN_URDF.to_owned()).expect("a sound world");
+        let scene = exchange::scene_to_message(table.scene(), Time::default());
+        let mut world = Self {
+            planner: PlacementPlanner::new(settings),
+            table,
+            now_ns: 0,
+            scene: scene.clone(),
+            pose: None,
+            sees: true,
+            seen_at: None,
+            plan: None,
+            stages: Vec::new(),
+            results: Vec::new(),
+        };
+        world.tell(Event::Scene(Box::new(scene.clone())));
+        world.tell(Event::RobotDescription(BUILT_IN_URDF.into()));
+        let lesson = LessonStatus { state: LessonStatus::TAUGHT, revision: 3, ..LessonStatus::default() };
+        world.tell(Event::Lesson(lesson));
+        world.tell(Event::Posterior(Box::new(posterior(&scene))));
+        world
+    }
+
+    fn now(&self) -> Time {
+        Time::from_nanoseconds(i128::from(self.now_ns))
+    }
+
+    /// Tells the planner something; what it sends reaches the world.
+    fn tell(&mut self, event: Event) {
+        for output in self.planner.step(self.now(), event) {
+            match output {
+                Output::Plan(plan) => self.plan = Some(*plan),
+                Output::Deed(Deed::Publish(trajectory)) => {
+                    let now = self.now();
+                    let said = self.table.step(now, simulated_table::Event::Trajectory(*trajectory));
+                    assert!(said.is_empty(), "the world follows: {said:?}");
+                }
+                Output::Deed(Deed::Feedback(_, feedback)) if self.stages.last() != Some(&feedback.stage) => {
+                    self.stages.push(feedback.stage);
+                }
+                Output::Deed(Deed::Finish(_, _, result)) => self.results.push(*result),
+                _ => {}
+            }
+        }
+    }
+
+    /// A twentieth of a second passes.
+    fn pass(&mut self) {
+        self.now_ns += STEP_NS;
+        for output in self.table.step(self.now(), simulated_table::Event::Tick) {
+            match output {
+                simulated_table::Output::Joints(joints) => self.tell(Event::Joints(joints)),
+                simulated_table::Output::TargetPose(mut pose) => {
+                    self.pose = Some(pose.clone());
+                    if let Some([x, y]) = self.seen_at {
+                        (pose.pose.position.x, pose.pose.position.y) = (x, y);
+                    }
+                    if self.sees {
+                        self.tell(Event::TargetPose(Box::new(pose)));
+                    }
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+        self.tell(Event::Tick(Heard::default()));
+    }
+
+    /// Long enough for everything to have been said.
+    fn look(&mut self) {
+        (0..12).for_each(|_| self.pass());
+    }
+
+    fn ask(&mut self, n: u8) {
+        let goal = PlaceObjectGoal { object_id: String::new(), plan_only: false };
+        let goal_id = GoalId { uuid: [n; 16] };
+        self.tell(Event::Place(ActionRequest::Goal { goal_id, goal }));
+    }
+
+    /// Until the goal is over, or something holds.
+    fn until(&mut self, what: &str, mut holds: impl FnMut(&Self) -> bool) {
+        for _ in 0..2000 {
+            if holds(self) {
+                return;
+            }
+            self.pass();
+        }
+        panic!("{what} did not happen; results {:?}, plan {:?}", self.results, self.plan.as_ref().map(|p| &p.reason));
+    }
+
+    fn place(&mut self) -> PlaceObjectResult {
+        self.look();
+        self.ask(1);
+        self.until("an end", |world| !world.results.is_empty());
+        self.results.remove(0)
+    }
+
+    fn joints(&mut self) -> Vec<f64> {
+        let outputs = self.table.step(self.now(), simulated_table::Event::Tick);
+        let joints = outputs.into_iter().find_map(|output| match output {
+            simulated_table::Output::Joints(joints) => Some(joints.position),
+            _ => None,
+        });
+        joints.expect("the world says where they are")
+    }
+
+    fn at(&self) -> [f64; 3] {
+        let at = &self.pose.as_ref().expect("it is seen").pose.position;
+        [at.x, at.y, at.z]
+    }
+
+    fn plan(&self) -> &PlacementPlan {
+        self.plan.as_ref().expect("a plan")
+    }
+}
+
+fn near(a: [f64; 3], b: [f64; 3], within_m: f64) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < within_m)
+}
+
+const ALL_STAGES: [u8; 5] = [
+    PlaceObjectFeedback::APPROACHING,
+    PlaceObjectFeedback::GRASPING,
+    PlaceObjectFeedback::MOVING,
+    PlaceObjectFeedback::RELEASING,
+    PlaceObjectFeedback::RETREATING,
+];
+
+#[test]
+fn a_vase_beside_the_table_is_picked_up_and_stands_where_the_plan_says() {
+    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+    world.sees = false;
+    world.look();
+    assert_eq!(world.plan().outcome, PlacementPlan::CANNOT_PICK, "nobody has seen it yet: {}", world.plan().reason);
+    world.sees = true;
+    let result = world.place();
+    assert_eq!((result.outcome, result.reason.as_str()), (PlaceObjectResult::DONE, "it stands"));
+    assert_eq!(world.stages, ALL_STAGES);
+    let want = [result.placement.x, result.placement.y, 0.0];
+    assert!(near(world.at(), want, 1e-3), "{:?} {want:?}", world.at());
+    assert!(near(want, [0.5, 0.5, 0.0], 0.02));
+    // It stands there, and that is no reason to pick it up again.
+    let plan = world.plan().clone();
+    assert!(plan.picks && (plan.pick.position.x, plan.pick.position.y) == (TRAY_M[0], TRAY_M[1]));
+    world.look();
+    assert_eq!(world.plan().pick, plan.pick);
+    // A replay has the recorded plan alone.
+    let recorded: PlacementPlan = from_cdr(&to_cdr(&plan)).expect("it is read");
+    let task = posterior(&world.scene);
+    let request = Request {
+        posterior: &task,
+        query_id: "",
+        scene: &recorded.scene,
+        start: &recorded.start,
+        pick: Some(&recorded.pick),
+        inside_bound: recorded.inside_bound,
+    };
+    assert_eq!(to_cdr(&world.planner.plan(&request).expect("it can be planned")), to_cdr(&plan));
+}
+
+#[test]
+fn a_plate_is_taken_by_its_rim_and_a_box_by_its_narrow_side() {
+    for (size_m, shape) in [([0.24, 0.24, 0.025], "cylinder"), ([0.03, 0.2, 0.02], "box"), ([0.2, 0.03, 0.02], "box")] {
+        let mut world = World::new(settings(), &table(&size_m, shape, &TRAY_M));
+        let result = world.place();
+        assert_eq!(result.outcome, PlaceObjectResult::DONE, "{size_m:?}: {}", result.reason);
+        let want = [result.placement.x, result.placement.y, 0.0];
+        assert!(near(world.at(), want, 1e-3), "{size_m:?}: {:?} {want:?}", world.at());
+    }
+}
+
+#[test]
+fn what_is_too_wide_or_out_of_reach_is_left_alone_with_the_reason() {
+    let mut world = World::new(settings(), &table(&[0.3, 0.2, 0.05], "box", &TRAY_M));
+    let result = world.place();
+    assert_eq!(result.outcome, PlaceObjectResult::CANNOT_PICK);
+    assert!(result.reason.contains("20.0 cm wide and the gripper opens 15.4 cm"), "{}", result.reason);
+    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.2], "cylinder", &[3.0, 0.2]));
+    let result = world.place();
+    assert_eq!(result.outcome, PlaceObjectResult::CANNOT_PICK);
+    assert!(result.reason.contains("out of the arm's reach"), "{}", result.reason);
+    // Next to the cup there is no room for fingers.
+    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.07], "cylinder", &[0.2, 0.345]));
+    let result = world.place();
+    assert!([PlaceObjectResult::DONE, PlaceObjectResult::CANNOT_PICK].contains(&result.outcome), "{}", result.reason);
+    assert_eq!(world.results, []);
+}
+
+#[test]
+fn a_hand_that_closes_on_nothing_goes_back_and_says_so() {
+    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.2], "cylinder", &[0.9, 0.5]));
+    // It is seen where it is not.
+    world.seen_at = Some(TRAY_M);
+    let start = world.joints();
+    let result = world.place();
+    assert_eq!(result.outcome, PlaceObjectResult::GRASP_FAILED);
+    assert!(result.reason.contains("was not in it"), "{}", result.reason);
+    let end = world.joints();
+    assert!(start.iter().zip(&end).take(6).all(|(a, b)| (a - b).abs() < 1e-3), "the arm is back: {start:?} {end:?}");
+}
+
+#[test]
+fn what_is_moved_before_the_hand_is_there_is_not_reached_for() {
+    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+    world.look();
+    world.ask(1);
+    for _ in 0..30 {
+        world.pass();
+    }
+    assert_eq!(world.results, []);
+    world.seen_at = Some([TRAY_M[0], TRAY_M[1] + 0.02]);
+    world.until("an end", |world| !world.results.is_empty());
+    let result = world.results.remove(0);
+    assert_eq!(result.outcome, PlaceObjectResult::SCENE_CHANGED);
+    assert!(result.reason.contains("was moved before the hand was there"), "{}", result.reason);
+    // The next plan goes to where it is now.
+    world.look();
+    assert!((world.plan().pick.position.y - TRAY_M[1] - 0.02).abs() < 1e-12);
+}
+
+#[test]
+fn what_is_not_seen_any_more_is_not_reached_for() {
+    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+    world.look();
+    world.sees = false;
+    (0..120).for_each(|_| world.pass());
+    let result = world.place();
+    assert_eq!(result.outcome, PlaceObjectResult::CANNOT_PICK);
+    assert!(result.reason.contains("s ago; 5 s are allowed"), "{}", result.reason);
+}
+
+#[test]
+fn called_off_with_the_target_in_the_hand_the_next_goal_goes_on_from_there() {
+    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+    world.look();
+    world.ask(1);
+    world.until("the vase is carried", |world| world.stages.contains(&PlaceObjectFeedback::MOVING));
+    (0..30).for_each(|_| world.pass());
+    world.tell(Event::Place(ActionRequest::Cancel { goal_id: GoalId { uuid: [1; 16] } }));
+    assert_eq!(world.results.remove(0).outcome, PlaceObjectResult::CANCELED);
+    (0..10).for_each(|_| world.pass());
+    assert!(world.at()[2] > 0.02, "it hangs in the air: {:?}", world.at());
+    world.stages.clear();
+    let result = world.place();
+    assert_eq!(result.outcome, PlaceObjectResult::DONE, "{}", result.reason);
+    assert_eq!(world.stages, ALL_STAGES[2..]);
+    assert!(!world.plan().picks);
+    assert!(near(world.at(), [result.placement.x, result.placement.y, 0.0], 1e-3), "{:?}", world.at());
+}
+
+#[test]
+fn a_gripper_lets_go_of_what_was_put_into_the_hand() {
+    let in_hand = Settings { pick: false, ..settings() };
+    let mut world = World::new(in_hand, &table(&[0.08, 0.08, 0.2], "cylinder", &[]));
+    let result = world.place();
+    assert_eq!(result.outcome, PlaceObjectResult::DONE, "{}", result.reason);
+    assert_eq!(world.stages, ALL_STAGES[2..]);
+    let plan = world.plan();
+    let (down, up) = (plan.trajectory.points.last(), plan.retreat.points.first());
+    assert_eq!(down.map(|point| &point.positions), up.map(|point| &point.positions), "up from where it let go");
+}
