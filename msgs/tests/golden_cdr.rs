@@ -70,13 +70,14 @@ where
 fn every_message_agrees_with_an_independent_implementation() {
     let golden = Golden::read();
     let mut seen = BTreeSet::new();
-    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 150] = [
+    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 151] = [
         check::<msg::ActionDemonstration>,
         check::<msg::ArmModel>,
         check::<msg::ArmMotion>,
         check::<msg::ArmPart>,
         check::<msg::ArmPose>,
         check::<msg::Candidates>,
+        check::<msg::Carrying>,
         check::<msg::CritiqueSegment>,
         check::<msg::EvidenceLog>,
         check::<msg::EvidenceReceipt>,

@@ -36,6 +36,7 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/ArmPart",
     "apprentice_msgs/msg/ArmPose",
     "apprentice_msgs/msg/Candidates",
+    "apprentice_msgs/msg/Carrying",
     "apprentice_msgs/msg/CritiqueSegment",
     "apprentice_msgs/msg/EvidenceLog",
     "apprentice_msgs/msg/EvidenceReceipt",
@@ -328,6 +329,17 @@ float32[] poses                  # for each link x, y, z in metres, then a unit 
 std_msgs/Header header
 uint64 revision                  # of the posterior
 TableScene[] scenes
+"#),
+    ("apprentice_msgs/msg/Carrying", r#"# What the arm is doing about a plan, and how that came out.
+std_msgs/Header header           # stamp: when it was so; frame: the table's
+uint64 revision                  # of the posterior that chose the place
+string object_id                 # what is being placed
+uint8 stage                      # one of the stages in the feedback of PlaceObject
+string description               # in plain words; once it is over, the reason
+float64 progress                 # of the whole, 0 to 1
+bool over
+uint8 outcome                    # once it is over: one of the outcomes in the result of PlaceObject
+geometry_msgs/Point placement    # where it goes, in the table's frame
 "#),
     ("apprentice_msgs/msg/CritiqueSegment", r#"# Part of a trajectory that a person marked.
 uint8 GOOD=0                     # as it should be done

@@ -148,6 +148,33 @@ impl crate::Message for Candidates {
     const TYPE: &'static str = "apprentice_msgs/msg/Candidates";
 }
 
+/// What the arm is doing about a plan, and how that came out.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Carrying {
+    /// stamp: when it was so; frame: the table's (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// of the posterior that chose the place (`uint64`)
+    pub revision: u64,
+    /// what is being placed (`string`)
+    pub object_id: std::string::String,
+    /// one of the stages in the feedback of PlaceObject (`uint8`)
+    pub stage: u8,
+    /// in plain words; once it is over, the reason (`string`)
+    pub description: std::string::String,
+    /// of the whole, 0 to 1 (`float64`)
+    pub progress: f64,
+    /// (`bool`)
+    pub over: bool,
+    /// once it is over: one of the outcomes in the result of PlaceObject (`uint8`)
+    pub outcome: u8,
+    /// where it goes, in the table's frame (`geometry_msgs/Point`)
+    pub placement: super::geometry_msgs::Point,
+}
+
+impl crate::Message for Carrying {
+    const TYPE: &'static str = "apprentice_msgs/msg/Carrying";
+}
+
 /// Part of a trajectory that a person marked.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CritiqueSegment {

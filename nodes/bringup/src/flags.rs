@@ -25,7 +25,7 @@ Exit codes:
   0  the lesson ended (taught, stopped or given up: see the summary), or it was stopped by Ctrl-C or SIGTERM
   1  something failed, or --time-limit passed
   2  the command line or a parameter is wrong
-  130, 143  with --until-taught: interrupted by Ctrl-C or SIGTERM before the lesson ended";
+  130, 143  with --until-taught or --until-placed: interrupted by Ctrl-C or SIGTERM before the lesson ended";
 
 /// Who answers the questions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -52,6 +52,9 @@ pub struct Flags {
     /// End by itself when the lesson ends
     #[arg(long)]
     pub until_taught: bool,
+    /// End by itself when the lesson has ended and the robot has put the thing down
+    #[arg(long)]
+    pub until_placed: bool,
     /// Write what happened to this file, as JSON
     #[arg(long, value_name = "FILE")]
     pub summary: Option<PathBuf>,
@@ -76,7 +79,7 @@ pub struct Flags {
     /// Show the nodes' log from this level on: debug, info, warn, error [default: warnings; the files hold all from info on]
     #[arg(long, value_name = "LEVEL", value_parser = ["debug", "info", "warn", "error"])]
     pub log_level: Option<String>,
-    /// With --until-taught: give up after this many seconds
+    /// With --until-taught or --until-placed: give up after this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub time_limit: Option<f64>,
     /// Plain text, no colours (NO_COLOR=1 does the same)
@@ -175,6 +178,7 @@ fn parameters(flags: &Flags) -> Vec<(&'static str, String)> {
     );
     give("headless", flags.headless.then(|| "true".to_owned()));
     give("until_taught", flags.until_taught.then(|| "true".to_owned()));
+    give("until_placed", flags.until_placed.then(|| "true".to_owned()));
     give("summary", flags.summary.as_ref().map(path));
     give("seed", flags.seed.map(|seed| seed.to_string()));
     give("session", flags.session.as_ref().map(path));
@@ -209,6 +213,7 @@ mod tests {
             seed: 7,
             headless: true,
             until_taught: true,
+            until_placed: false,
             time_limit_s: 90.0,
             record: false,
             session: "a/b".to_owned(),

@@ -1,12 +1,25 @@
 //! The numbers of a lesson.
 
 use crate::Topic;
-use apprentice_msgs::msg::{EvidenceReceipt, EvidenceRecord, LessonStatus, PlacementPlan, RobustPolicy};
+use apprentice_msgs::msg::{Carrying, EvidenceReceipt, EvidenceRecord, LessonStatus, PlacementPlan, RobustPolicy};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// Latencies kept for the percentiles.
 const MAX_LATENCIES: usize = 100_000;
+
+/// What the robot does once the lesson is over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Placing {
+    /// There is no plan to carry out, or not yet.
+    NotPlanned,
+    /// There is one, and the arm stands.
+    NotBegun,
+    /// The arm moves.
+    UnderWay,
+    /// Well or not.
+    Over,
+}
 
 /// Counts what happens in a lesson; time is an argument.
 #[derive(Debug, Default)]
@@ -19,6 +32,8 @@ pub struct Ledger {
     pub answers: u64,
     /// The newest plan for the table as it is.
     pub plan: Option<PlacementPlan>,
+    /// What the arm does about a plan, or did.
+    pub carrying: Option<Carrying>,
     /// The newest policy of a lesson about a world.
     pub policy: Option<RobustPolicy>,
     /// From "accepted" to the next question or the lesson's end, milliseconds.
@@ -56,6 +71,7 @@ impl Ledger {
                 self.answers = answers.count() as u64;
             }
             Topic::Plan(plan) if plan.query_id.is_empty() => self.plan = Some(PlacementPlan::clone(plan)),
+            Topic::Carrying(carrying) => self.carrying = Some(Carrying::clone(carrying)),
             Topic::Policy(policy) => self.policy = Some(RobustPolicy::clone(policy)),
             _ => {}
         }
@@ -77,6 +93,17 @@ impl Ledger {
                 (Some(policy), Some(lesson)) => policy.revision >= lesson.revision,
                 _ => false,
             },
+        }
+    }
+
+    /// How far the robot is with putting the target where the final plan says.
+    pub fn placing(&self) -> Placing {
+        let plan = self.plan.as_ref().filter(|plan| plan.inside_bound && plan.outcome == PlacementPlan::PLANNED);
+        let Some(plan) = plan.filter(|_| self.has_final_plan()) else { return Placing::NotPlanned };
+        match self.carrying.as_ref().filter(|carrying| carrying.revision == plan.revision) {
+            None => Placing::NotBegun,
+            Some(carrying) if carrying.over => Placing::Over,
+            Some(_) => Placing::UnderWay,
         }
     }
 

@@ -32,7 +32,7 @@ pub use environment::{take_on, wanted};
 pub use error::BringupError;
 pub use flags::{CommandLine, CommandLineError, Flags, Who};
 pub use launch::{Common, LaunchNode, launch};
-pub use ledger::Ledger;
+pub use ledger::{Ledger, Placing};
 pub use log_line::Level;
 pub use nodes::{NodeInfo, stop_stage};
 pub use scenario::{BUILT_IN, Scenario, Subject, read_parameters};

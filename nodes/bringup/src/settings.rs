@@ -26,6 +26,8 @@ pub struct Settings {
     pub headless: bool,
     /// End by itself when the lesson ends.
     pub until_taught: bool,
+    /// End by itself when the lesson ends and the robot has put the thing down.
+    pub until_placed: bool,
     /// Where to write what happened, JSON; empty: nowhere.
     pub summary: String,
     /// Seed of every node; -1: 1, or what the session was begun with.
@@ -36,7 +38,7 @@ pub struct Settings {
     pub port: i64,
     /// Record everything.
     pub record: bool,
-    /// With `until_taught`: give up after this long, seconds; 0: never.
+    /// With `until_taught` or `until_placed`: give up after this long, seconds; 0: never.
     pub time_limit_s: f64,
 }
 
@@ -47,6 +49,7 @@ impl Default for Settings {
             demonstrator: Demonstrator::Simulated,
             headless: false,
             until_taught: false,
+            until_placed: false,
             summary: String::new(),
             seed: -1,
             session: String::new(),
@@ -73,6 +76,11 @@ impl NodeSettings for Settings {
         },
         ParameterSpec { name: "headless", about: "without the operator's page", range: Range::Any },
         ParameterSpec { name: "until_taught", about: "end when the lesson ends", range: Range::Any },
+        ParameterSpec {
+            name: "until_placed",
+            about: "end when the lesson has ended and the robot, if it is to move, has put the thing down",
+            range: Range::Any,
+        },
         ParameterSpec { name: "summary", about: "JSON file for what happened; empty: none", range: Range::Any },
         ParameterSpec {
             name: "seed",
@@ -92,7 +100,7 @@ impl NodeSettings for Settings {
         ParameterSpec { name: "record", about: "record every topic to a bag", range: Range::Any },
         ParameterSpec {
             name: "time_limit_s",
-            about: "with until_taught: give up after this many seconds; 0: never",
+            about: "with until_taught or until_placed: give up after this many seconds; 0: never",
             range: Range::Float { min: 0.0, max: 1e6 },
         },
     ];
@@ -101,14 +109,21 @@ impl NodeSettings for Settings {
         if self.headless && self.demonstrator == Demonstrator::Human {
             return Err("a human answers on the page, which `headless` leaves out; drop one of the two".to_owned());
         }
-        if self.time_limit_s > 0.0 && !self.until_taught {
-            return Err("time_limit_s has a meaning only with until_taught".to_owned());
+        if self.time_limit_s > 0.0 && !self.ends_by_itself() {
+            return Err("time_limit_s has a meaning only with until_taught or until_placed".to_owned());
         }
         Ok(())
     }
 
     fn seed(&self) -> u64 {
         u64::try_from(self.seed).unwrap_or(1)
+    }
+}
+
+impl Settings {
+    /// Whether nobody has to end it.
+    pub fn ends_by_itself(&self) -> bool {
+        self.until_taught || self.until_placed
     }
 }
 

@@ -141,7 +141,7 @@ fn introduce(
     let environment = format!("ROS_DOMAIN_ID={domain} {name}={range}");
     say("graph", &format!("domain {domain}, {name}={range}"));
     say("watch", &format!("{environment} ros2 topic echo {namespace}/lesson"));
-    if !settings.until_taught {
+    if !settings.ends_by_itself() {
         say("stop", "Ctrl-C");
     }
 }

@@ -2,10 +2,12 @@
 
 use crate::world_story::WorldStory;
 use crate::{Kind, Topic};
+use apprentice_msgs::action::PlaceObjectResult;
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementPlan, PlacementQuery,
-    QueryResponse, TableScene,
+    Carrying, EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementPlan,
+    PlacementQuery, QueryResponse, TableScene,
 };
+use apprentice_msgs::trajectory_msgs::JointTrajectory;
 
 /// Cells of the bar that shows a bound.
 const BAR: usize = 24;
@@ -27,6 +29,7 @@ pub struct Story {
     told_bound: Option<u64>,
     told_state: Option<(u8, u64)>,
     told_plan: Option<u64>,
+    told_carrying: Option<(u64, u8, bool)>,
     widest_m: f64,
     world: WorldStory,
 }
@@ -56,6 +59,7 @@ impl Story {
                 lines.extend(self.bound_and_state());
             }
             Topic::Plan(plan) => lines.extend(self.plan(plan)),
+            Topic::Carrying(carrying) => lines.extend(self.carrying(carrying)),
             Topic::World(world) => lines.extend(self.world.world(world)),
             Topic::WorldQuery(query) => lines.extend(self.world.query(query)),
             Topic::Policy(policy) => lines.extend(self.world.policy(policy)),
@@ -141,8 +145,28 @@ impl Story {
             return Some((Kind::Plan, format!("    no way to place the {target}: {}", short(&plan.reason))));
         }
         let at = &plan.robust_placement;
-        let last = plan.trajectory.points.last().map_or(0.0, |point| point.time_from_start.seconds());
-        Some((Kind::Plan, format!("    the {target} goes to ({:.2}, {:.2}) m; the arm needs {last:.1} s", at.x, at.y)))
+        let seconds = |part: &JointTrajectory| part.points.last().map_or(0.0, |point| point.time_from_start.seconds());
+        let all_s: f64 = [&plan.approach, &plan.trajectory, &plan.retreat].map(seconds).iter().sum();
+        Some((Kind::Plan, format!("    the {target} goes to ({:.2}, {:.2}) m; the arm needs {all_s:.1} s", at.x, at.y)))
+    }
+
+    /// Each stage once, and how it ended.
+    fn carrying(&mut self, carrying: &Carrying) -> Option<(Kind, String)> {
+        let stage = (carrying.revision, carrying.stage, carrying.over);
+        if self.told_carrying.replace(stage) == Some(stage) {
+            return None;
+        }
+        let target = self.table.as_ref().map_or("target".to_owned(), |table| short(&table.target.label));
+        let at = &carrying.placement;
+        let words = short(&carrying.description);
+        Some((
+            Kind::Plan,
+            match (carrying.over, carrying.outcome) {
+                (false, _) => format!("    {words}"),
+                (true, PlaceObjectResult::DONE) => format!("    the {target} stands at ({:.2}, {:.2}) m", at.x, at.y),
+                (true, _) => format!("    the {target} was not put there: {words}"),
+            },
+        ))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::words::{closing_words, told};
 use crate::{
     Action, BringupError, Child, Circumstances, Console, Exit, Kind, LaunchNode, Ledger, Level, NodeCount, NodeLog,
-    Settings, Story, Summary, Supervisor, Topic, Watch,
+    Placing, Settings, Story, Summary, Supervisor, Topic, Watch,
 };
 use bus::{Arguments, Graph};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -17,6 +17,10 @@ use std::time::{Duration, Instant};
 
 /// After the lesson's end the robot has this long to plan.
 const PLAN_GRACE: Duration = Duration::from_secs(5);
+/// With `until_placed`: the arm moves within this time of the plan, or not at all.
+const MOVE_GRACE: Duration = Duration::from_secs(10);
+/// And is done within this one.
+const MOVE_LIMIT: Duration = Duration::from_secs(300);
 /// After everything has been said, the recorder has this long to hear it.
 const LAST_WORDS: Duration = Duration::from_millis(500);
 /// How often to look for the page's address while it is not there.
@@ -52,11 +56,11 @@ pub struct Plan {
 pub enum Outcome {
     /// The lesson ended by itself, or a person ended what runs until then.
     Ended,
-    /// With `until_taught`: a signal came before the lesson's end.
+    /// With `until_taught` or `until_placed`: a signal came before the lesson's end.
     Interrupted(i32),
     /// A node that the lesson needs cannot run.
     NodeGivenUp,
-    /// With `until_taught`: the time limit passed.
+    /// With `until_taught` or `until_placed`: the time limit passed.
     TimedOut,
 }
 
@@ -91,6 +95,8 @@ struct Suite {
     page: Option<String>,
     awaits_page: bool,
     over_at: Option<Duration>,
+    /// What that waits for.
+    placing: Option<Option<Placing>>,
     outcome: Option<Outcome>,
     /// Why the lesson did not end by itself.
     why: Option<String>,
@@ -134,6 +140,7 @@ pub fn run(plan: Plan, graph: Graph) -> Result<Outcome, BringupError> {
         page: None,
         awaits_page: false,
         over_at: None,
+        placing: None,
         outcome: None,
         why: None,
         all_stopped: false,
@@ -273,7 +280,7 @@ impl Suite {
         }
         let name = signal_hook::low_level::signal_name(signal).unwrap_or("a signal");
         self.say(Kind::Info("stop"), &format!("{name}: stopping the nodes, the recorder last"));
-        let early = self.plan.settings.until_taught && !self.ledger.is_over();
+        let early = self.plan.settings.ends_by_itself() && !self.ledger.is_over();
         let outcome = if early { Outcome::Interrupted(signal) } else { Outcome::Ended };
         self.end(outcome, Some(format!("interrupted by {name}")));
     }
@@ -290,13 +297,22 @@ impl Suite {
                 self.over_at = Some(now + PLAN_GRACE);
             }
             if self.ledger.has_final_plan() {
-                self.over_at = self.over_at.map(|at| at.min(now + LAST_WORDS));
+                let placing = Some(self.ledger.placing()).filter(|_| self.plan.settings.until_placed);
+                let wait = match placing {
+                    Some(Placing::NotBegun) => MOVE_GRACE,
+                    Some(Placing::UnderWay) => MOVE_LIMIT,
+                    None | Some(Placing::NotPlanned | Placing::Over) => LAST_WORDS,
+                };
+                // What is waited for changes; the time for it runs from then on.
+                if self.placing.replace(placing) != Some(placing) {
+                    self.over_at = Some(now + wait);
+                }
             }
         } else {
             // An undo took the end back.
-            self.over_at = None;
+            (self.over_at, self.placing) = (None, None);
         }
-        if !self.plan.settings.until_taught {
+        if !self.plan.settings.ends_by_itself() {
             self.over_at = self.over_at.map(|_| Duration::MAX);
             return;
         }

@@ -1,6 +1,7 @@
 //! What is left of a lesson when it is over: one JSON object.
 
 use crate::{Ledger, SessionRecord};
+use apprentice_msgs::action::PlaceObjectResult;
 use apprentice_msgs::msg::{LessonStatus, RobustPolicy};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -37,6 +38,11 @@ pub struct Summary {
     pub policy: Option<PolicySummary>,
     /// Where the robot would put the target, from above: x, y.
     pub placement_m: Option<[f64; 2]>,
+    /// Whether it put the target there; null: it did not try, or is at it.
+    pub placed: Option<bool>,
+    /// How that ended, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub placed_reason: Option<String>,
     /// From the start of the command to now.
     pub wall_time_s: f64,
     /// From the start of the command to the first question.
@@ -135,6 +141,7 @@ impl Summary {
     ) -> Self {
         let lesson = ledger.lesson.as_ref();
         let finite = |value: f64| value.is_finite().then_some(value);
+        let carried = ledger.carrying.as_ref().filter(|carrying| carrying.over);
         let about_world = ledger.policy.is_some();
         let state = lesson.map_or(LessonStatus::ASKING, |lesson| lesson.state);
         let own_reason = lesson.map_or("no question was asked", |lesson| lesson.reason.as_str());
@@ -166,6 +173,8 @@ impl Summary {
                 reason: policy.reason.clone(),
             }),
             placement_m: ledger.plan.as_ref().map(|plan| [plan.robust_placement.x, plan.robust_placement.y]),
+            placed: carried.map(|carrying| carrying.outcome == PlaceObjectResult::DONE),
+            placed_reason: carried.map(|carrying| carrying.description.clone()),
             wall_time_s: now.as_secs_f64(),
             start_to_first_question_s: ledger.first_question.map(|at| at.as_secs_f64()),
             answer_to_next_question_ms: Percentiles::of(&ledger.latencies_ms()),

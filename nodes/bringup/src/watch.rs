@@ -2,8 +2,8 @@
 
 use crate::Settings;
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceReceipt, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, RobustPolicy,
-    TableScene, TabularWorld, WorldQuery,
+    Carrying, EvidenceLog, EvidenceReceipt, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery,
+    RobustPolicy, TableScene, TabularWorld, WorldQuery,
 };
 use bus::{Arguments, Bus, Graph, NodeError, Qos, Stopper};
 use std::sync::mpsc::{Sender, channel};
@@ -26,6 +26,8 @@ pub enum Topic {
     Lesson(LessonStatus),
     /// The robot's plan.
     Plan(Box<PlacementPlan>),
+    /// What the arm is doing about it.
+    Carrying(Box<Carrying>),
     /// The world.
     World(Box<TabularWorld>),
     /// The open question about it.
@@ -94,6 +96,7 @@ fn open(graph: &Graph, arguments: &Arguments, settings: &Settings) -> Result<Bus
     bus.subscribe("bounds", Qos::State, Topic::Bounds)?;
     bus.subscribe("lesson", Qos::State, Topic::Lesson)?;
     bus.subscribe("plan", Qos::State, |plan| Topic::Plan(Box::new(plan)))?;
+    bus.subscribe("carrying", Qos::State, |carrying| Topic::Carrying(Box::new(carrying)))?;
     bus.subscribe("world", Qos::State, |world| Topic::World(Box::new(world)))?;
     bus.subscribe("world_query", Qos::State, |query| Topic::WorldQuery(Box::new(query)))?;
     bus.subscribe("robust_policy", Qos::State, |policy| Topic::Policy(Box::new(policy)))?;

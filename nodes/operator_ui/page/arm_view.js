@@ -280,9 +280,9 @@ export function posesAt(motion, seconds) {
   return mixed;
 }
 
-/** Where the target is while the hand carries it: fixed to the link that is nearest to the end of the way. */
+/** Where the target is while the hand carries it: fixed to the link that is nearest to the end of the way when it lets go. */
 export function carried(motion, poses) {
-  const { target, way, target_z_m } = motion, last = motion.poses.at(-1);
+  const { target, way, target_z_m } = motion, last = posesAt(motion, motion.held_s[1]);
   if (!target || !last || !poses) return null;
   const end = way.slice(-3), far = (k) => Math.hypot(...[0, 1, 2].map((j) => last[k + j] - end[j]));
   let hand = 0;

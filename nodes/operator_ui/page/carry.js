@@ -76,8 +76,8 @@ export class Carry {
     }
     // While the person looks at the plan, the arm as it is would only be in the way.
     const replay = moves && this.seconds !== null ? posesAt(motion, this.seconds) : null;
-    const held = replay ? carried(motion, replay) : null, target = motion?.target && plan ? { ...motion.target, z_m: motion.target_z_m } : null;
-    this.view.show({ scene, arm, dark, pose: replay ?? pose, replayed: Boolean(replay), way: moves ? motion.way : null, target: target && (held ? { ...target, pose: held, alpha: 0.75 } : target) });
+    const target = motion?.target && plan ? { ...motion.target, z_m: motion.target_z_m } : null;
+    this.view.show({ scene, arm, dark, pose: replay ?? pose, replayed: Boolean(replay), way: moves ? motion.way : null, target: target && { ...target, ...this.at(replay) } });
     const spots = this.spots(), key = JSON.stringify(spots);
     if (key !== this.spotsKey) { this.spotsKey = key; this.view.show({ spots }); }
     $("arm").setAttribute("aria-label", CARRY.picture(scene, plan));
@@ -88,6 +88,25 @@ export class Carry {
     $("motion-time").setAttribute("aria-valuetext", CARRY.time(this.seconds, last));
     $("motion-words").textContent = CARRY.time(this.seconds, last);
     $("motion-play").textContent = this.playing ? CARRY.pause : CARRY.play;
+  }
+
+  /** Where the target is at the moment that is looked at: it waits to be picked up, is in the hand, or stands in its place. */
+  at(replay) {
+    const { motion } = this.state, [from, until] = motion.held_s;
+    if (!replay || this.seconds > until) return {};
+    if (this.seconds < from && motion.pick) return { pose: motion.pick, alpha: 0.75 };
+    const held = carried(motion, replay);
+    return held ? { pose: held, alpha: 0.75 } : {};
+  }
+
+  /** What the arm is doing, in words. */
+  doing(carrying) {
+    const node = $("carrying");
+    node.hidden = !carrying;
+    if (!carrying) return;
+    node.dataset.state = carrying.over ? (carrying.done ? "done" : "failed") : "moving";
+    const words = CARRY.doing(carrying);
+    if (node.textContent !== words) node.textContent = words;
   }
 
   list(plan) {

@@ -14,7 +14,7 @@ import { ANSWER, ANSWERS, BAR, CARRY, GAUGE, LINK, QUESTION, STATES, TABLE, fill
 import { WorldLesson } from "./world.js";
 
 const $ = (id) => document.getElementById(id);
-const state = { question: null, world_question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [], recordings: [], arm: null, arm_pose: null, arm_motion: null };
+const state = { question: null, world_question: null, guess: null, plan: null, scene: null, lesson: null, bounds: null, posterior: null, trend: [], answers: [], nodes: [], node: null, world: null, policy: null, frontier: null, robust_bounds: null, caution: null, weights: [], loss_trend: [], recordings: [], arm: null, arm_pose: null, arm_motion: null, carrying: null };
 fillWords();
 const own = { question: undefined, at: null, revealed: false, heat: false, sent: null, sentFor: null, correcting: false, look: null, problem: "" };
 
@@ -243,6 +243,7 @@ function renderTable() {
   const guessed = own.look ? null : plan(), isTask = guessed !== null && guessed === state.plan;
   const motion = isTask && state.arm_motion?.revision === guessed.revision ? state.arm_motion : null;
   carry.render({ scene: shown, plan: isTask && reveal() ? guessed : null, arm: state.arm, pose: state.arm_pose, motion, dark: isDark() });
+  carry.doing(isTask && reveal() && state.carrying?.revision === guessed.revision ? state.carrying : null);
   table.show({
     scene: shown,
     spots: carry.spots(),

@@ -234,6 +234,8 @@ export const CARRY = {
   time: (seconds, last) => (seconds === null ? `The arm as it is; the motion takes ${last.toFixed(1)} s` : `${seconds.toFixed(1)} of ${last.toFixed(1)} s`),
   picture: (scene, plan) => `The arm at the table with ${scene.objects.map((object) => object.label).join(", ") || "nothing on it"}.${plan ? ` ${plan.reason}` : ""} Arrow keys turn the picture, plus and minus bring it nearer.`,
   hint: "Drag to turn the picture; with the focus on it, scroll or pinch to come nearer.",
+  doing: ({ stage, over, done, reason, progress }) => over ? (done ? "It stands in its place." : `The robot did not put it there: ${reason}.`)
+    : `${{ approaching: "The empty hand goes to it", grasping: "The gripper closes", moving: "The arm takes it there", releasing: "The gripper lets go", retreating: "The empty hand goes away" }[stage]} (${Math.round(100 * progress)} %).`,
   considered: (n) => (n === 1 ? "The one place it considered" : `${n} places it considered`),
   verdict: ({ x_m, y_m, verdict, reason }) => `${cm1(x_m)} × ${cm1(y_m)} cm: ${{ chosen: "chosen", next_best: "would do too" }[verdict] ?? reason}`,
   numbers: ({ probability_best, cvar_m, clearance_m }) => [
@@ -452,7 +454,7 @@ export const REPORT = {
   plan: { takes: "The place it takes", likely: "The most likely place", outcome: "Outcome", may: "May it move", none: "none" },
   outcomes: {
     planned: "A motion there is planned", no_free_place: "There is no free place", unreachable: "The arm reaches no free place", no_path: "No collision-free motion was found", no_robot: "There is no robot to move",
-    start_in_collision: "The arm touches something where it is", goal_in_collision: "The arm would touch something at every free place", joints_unknown: "Where the arm is, is not known", outside_limits: "A joint of the arm is outside its limits", unknown: "What became of the plan is not known",
+    start_in_collision: "The arm touches something where it is", goal_in_collision: "The arm would touch something at every free place", joints_unknown: "Where the arm is, is not known", outside_limits: "A joint of the arm is outside its limits", cannot_pick: "The arm cannot pick it up", unknown: "What became of the plan is not known",
   },
   outcome: (outcome, motion_s) => `${outcome}${motion_s === null ? "" : `, in ${motion_s.toFixed(1)} s`}`,
   mayMove: { yes: "Yes: for this table the bound is below the goal.", no: "No: for this table the bound is not known to be below the goal." },

@@ -1,9 +1,10 @@
 //! The arm as it was told on the graph, checked and cut to what a page draws.
 
-use crate::protocol::{ArmMotionView, ArmView, ObjectView, PartShape, PartView, Sections};
+use crate::protocol::{ArmMotionView, ArmView, CarryingView, ObjectView, PartShape, PartView, Sections};
 use crate::view::object_view;
+use apprentice_msgs::action::{PlaceObjectFeedback, PlaceObjectResult};
 use apprentice_msgs::geometry_msgs::Pose;
-use apprentice_msgs::msg::{ArmModel, ArmMotion, ArmPart, ArmPose};
+use apprentice_msgs::msg::{ArmModel, ArmMotion, ArmPart, ArmPose, Carrying};
 use exchange::object_from_message;
 
 /// Numbers of a link's pose.
@@ -16,6 +17,8 @@ const MAX_PARTS: usize = 2000;
 const MAX_CORNERS: usize = 100_000;
 /// More moments of a motion, or points of its way, are not drawn.
 const MAX_MOMENTS: usize = 20_000;
+/// Longest reason for an ended motion, characters.
+const MAX_REASON: usize = 300;
 /// A page gets lengths to a hundredth of a millimetre.
 const PRECISION: f64 = 1e5;
 
@@ -25,11 +28,12 @@ pub(crate) struct ArmNews {
     pub model: bool,
     pub pose: bool,
     pub motion: bool,
+    pub carrying: bool,
 }
 
 impl ArmNews {
     /// Everything, for a page that has just joined.
-    pub const ALL: Self = Self { model: true, pose: true, motion: true };
+    pub const ALL: Self = Self { model: true, pose: true, motion: true, carrying: true };
 }
 
 /// See the module. What speaks of another robot than the model's is kept, and not shown.
@@ -38,6 +42,7 @@ pub(crate) struct ArmPicture {
     model: Option<ArmView>,
     pose: (String, Vec<f64>),
     motion: Option<(String, ArmMotionView)>,
+    carrying: Option<CarryingView>,
 }
 
 impl ArmPicture {
@@ -51,7 +56,7 @@ impl ArmPicture {
             return Ok(ArmNews::default());
         }
         self.model = Some(view);
-        Ok(ArmNews::ALL)
+        Ok(ArmNews { carrying: false, ..ArmNews::ALL })
     }
 
     /// Takes where its links are.
@@ -74,6 +79,27 @@ impl ArmPicture {
         Ok(news)
     }
 
+    /// Takes what it is doing.
+    pub fn take_carrying(&mut self, message: &Carrying) -> ArmNews {
+        let view = Some(CarryingView {
+            revision: message.revision,
+            stage: match message.stage {
+                PlaceObjectFeedback::APPROACHING => "approaching",
+                PlaceObjectFeedback::GRASPING => "grasping",
+                PlaceObjectFeedback::RELEASING => "releasing",
+                PlaceObjectFeedback::RETREATING => "retreating",
+                _ => "moving",
+            },
+            progress: cut(message.progress).clamp(0.0, 1.0),
+            over: message.over,
+            done: message.over && message.outcome == PlaceObjectResult::DONE,
+            reason: message.description.chars().take(MAX_REASON).collect(),
+        });
+        let news = ArmNews { carrying: self.carrying != view, ..ArmNews::default() };
+        self.carrying = view;
+        news
+    }
+
     /// Whether poses are of the arm that is drawn.
     fn fits(&self, hash: &str, n: usize) -> bool {
         self.model.as_ref().is_some_and(|model| model.key == hash && n == POSE * model.links.len())
@@ -90,6 +116,7 @@ impl ArmPicture {
             drawn.then(|| motion.clone())
         };
         sections.arm_motion = news.motion.then(motion);
+        sections.carrying = news.carrying.then(|| self.carrying.clone());
     }
 }
 
@@ -157,7 +184,10 @@ fn motion_view(message: &ArmMotion) -> Result<ArmMotionView, String> {
         let sizes = [of.size_x_m, of.size_y_m, of.size_z_m];
         sizes.iter().all(|size| size.is_finite() && *size > 0.0) && (of.x_m + of.y_m + of.yaw_rad).is_finite()
     };
+    let pick = &message.pick.position;
     Ok(ArmMotionView {
+        held_s: [message.held_from_s, message.held_until_s].map(cut),
+        pick: [pick.x, pick.y, pick.z].iter().all(|m| m.is_finite()).then(|| pose(&message.pick)),
         revision: message.revision,
         times_s: message.times_s.iter().map(|s| cut(*s)).collect(),
         poses: message.poses.chunks_exact(each.max(1)).map(rounded).collect(),

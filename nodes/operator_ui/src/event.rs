@@ -3,10 +3,10 @@
 use crate::hub::PageId;
 use crate::protocol::RecordingView;
 use apprentice_msgs::msg::{
-    ActionDemonstration, ArmModel, ArmMotion, ArmPose, EvidenceLog, EvidenceReceipt, Heartbeat, LearnerHistory,
-    LessonStatus, PerformanceBounds, PlacementDemonstration, PlacementPlan, PlacementQuery, PolicyBounds,
-    PolicyFrontier, Posterior, QueryResponse, Retraction, RiskPreference, RobustPolicy, SegmentCritique, TableScene,
-    TabularWorld, TrajectoryPreference, WorldQuery,
+    ActionDemonstration, ArmModel, ArmMotion, ArmPose, Carrying, EvidenceLog, EvidenceReceipt, Heartbeat,
+    LearnerHistory, LessonStatus, PerformanceBounds, PlacementDemonstration, PlacementPlan, PlacementQuery,
+    PolicyBounds, PolicyFrontier, Posterior, QueryResponse, Retraction, RiskPreference, RobustPolicy, SegmentCritique,
+    TableScene, TabularWorld, TrajectoryPreference, WorldQuery,
 };
 use apprentice_msgs::visualization_msgs::{
     InteractiveMarker, InteractiveMarkerFeedback, InteractiveMarkerUpdate, MarkerArray,
@@ -49,6 +49,8 @@ pub enum Event {
     ArmPose(Box<ArmPose>),
     /// How it would carry out the plan.
     ArmMotion(Box<ArmMotion>),
+    /// What it is doing about the plan.
+    Carrying(Box<Carrying>),
     /// A node is alive.
     Heartbeat(Box<Heartbeat>),
     /// The recordings that there are.

@@ -159,6 +159,7 @@ impl OperatorUi {
                 Ok(news) => changed.arm = news,
                 Err(text) => self.warn(text, &mut out),
             },
+            Event::Carrying(message) => changed.arm = self.arm.take_carrying(&message),
             Event::Guess(message) => {
                 let view = self.checked_plan(&message, &mut out);
                 changed.guess = replace(&mut self.guess, view);

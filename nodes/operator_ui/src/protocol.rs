@@ -9,7 +9,7 @@ mod arm;
 mod shown;
 mod world;
 
-pub use arm::{ArmMotionView, ArmView, PartShape, PartView};
+pub use arm::{ArmMotionView, ArmView, CarryingView, PartShape, PartView};
 pub use shown::{
     AnswerView, BoundsView, CandidateView, Fate, LessonView, NodeView, ObjectView, PlanView, PosteriorView,
     QuestionView, RecordingView, SceneView, SpotView, TrendPoint, UndoView,
@@ -121,6 +121,9 @@ pub struct Sections {
     /// How it would carry out the plan for the table as it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arm_motion: Option<Option<ArmMotionView>>,
+    /// How far it is with that, or how it came out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub carrying: Option<Option<CarryingView>>,
     /// Recordings that a lesson can be taken up from, the newest first.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recordings: Option<Vec<RecordingView>>,

@@ -73,6 +73,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     bus.subscribe("arm_model", Qos::State, |message| Event::ArmModel(Box::new(message)))?;
     bus.subscribe("arm_pose", Qos::Stream, |message| Event::ArmPose(Box::new(message)))?;
     bus.subscribe("arm_motion", Qos::State, |message| Event::ArmMotion(Box::new(message)))?;
+    bus.subscribe("carrying", Qos::State, |message| Event::Carrying(Box::new(message)))?;
     bus.subscribe("heartbeat", Qos::Event, |message| Event::Heartbeat(Box::new(message)))?;
     bus.every(Duration::from_millis(500), || Event::Tick);
 

@@ -9,6 +9,7 @@ use apprentice_msgs::msg::{
     LessonStatus, PerformanceBounds, PlacementBound, PlacementCandidate, PlacementPlan, PlacementQuery, Posterior,
     TableScene,
 };
+use apprentice_msgs::trajectory_msgs::JointTrajectory;
 use exchange::{ExchangeError, scene_from_message};
 use scene::{Object, Shape};
 
@@ -92,10 +93,12 @@ pub(crate) fn plan_view(message: &PlacementPlan) -> (PlanView, Option<String>) {
         PlacementPlan::GOAL_IN_COLLISION => "goal_in_collision",
         PlacementPlan::JOINTS_UNKNOWN => "joints_unknown",
         PlacementPlan::OUTSIDE_LIMITS => "outside_limits",
+        PlacementPlan::CANNOT_PICK => "cannot_pick",
         _ => "unknown",
     };
     let placed = outcome != "no_free_place";
-    let motion_s = message.trajectory.points.last().map_or(0.0, |point| point.time_from_start.seconds());
+    let seconds = |part: &JointTrajectory| part.points.last().map_or(0.0, |point| point.time_from_start.seconds());
+    let motion_s = [&message.approach, &message.trajectory, &message.retreat].map(seconds).iter().sum();
     let view = PlanView {
         query_id: message.query_id.clone(),
         revision: message.revision,

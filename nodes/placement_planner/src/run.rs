@@ -4,7 +4,7 @@ use crate::{Deed, Event, Heard, Limb, Output, PlacementPlanner, RobotFiles, Sett
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::control_msgs::{FollowJointTrajectory, GripperCommandAction};
 use apprentice_msgs::moveit_msgs::PlanningScene;
-use apprentice_msgs::msg::{ArmModel, ArmMotion, ArmPose, PlacementPlan};
+use apprentice_msgs::msg::{ArmModel, ArmMotion, ArmPose, Carrying, PlacementPlan};
 use apprentice_msgs::std_msgs;
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
@@ -29,6 +29,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let arm_model = bus.publisher::<ArmModel>("arm_model", Qos::State)?;
     let arm_pose = bus.publisher::<ArmPose>("arm_pose", Qos::Stream)?;
     let arm_motion = bus.publisher::<ArmMotion>("arm_motion", Qos::State)?;
+    let carrying = bus.publisher::<Carrying>("carrying", Qos::State)?;
     bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
     bus.subscribe("scene", Qos::State, |message| Event::Scene(Box::new(message)))?;
@@ -101,6 +102,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                         _ => {}
                     },
                     Deed::Feedback(goal_id, feedback) => place.feedback(goal_id, feedback),
+                    Deed::Tell(message) => carrying.publish(&message)?,
                     Deed::Finish(goal_id, end, result) => place.finish(goal_id, end, *result),
                     Deed::Over(_, result) if result.outcome == PlaceObjectResult::DONE => {
                         log::info!("the motion is over: {}", result.reason);

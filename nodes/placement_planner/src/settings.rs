@@ -1,7 +1,7 @@
 //! Parameters of the node.
 
-use bus::{NodeSettings, ParameterSpec, Range};
 use crate::carrying::Fingers;
+use bus::{NodeSettings, ParameterSpec, Range};
 use placement::{ClosingAxis, Gripper, MotionSettings, TablePose};
 use serde::{Deserialize, Serialize};
 

@@ -95,8 +95,14 @@ fn meshes_are_read_from_the_packages_and_plans_name_them() {
         PlacementPlanner::with_files(settings(small.path()), RobotFiles::open(&settings(small.path())).unwrap());
     again.set_robot(&with_mesh(), None).unwrap();
     assert_eq!(again.robot_hash(), plan.robot_hash);
-    let request =
-        Request { posterior: &posterior(1), query_id: "", scene: &plan.scene, start: &plan.start, pick: None, inside_bound: false };
+    let request = Request {
+        posterior: &posterior(1),
+        query_id: "",
+        scene: &plan.scene,
+        start: &plan.start,
+        pick: None,
+        inside_bound: false,
+    };
     assert_eq!(to_cdr(&again.plan(&request).unwrap()), to_cdr(&plan));
 }
 

@@ -206,7 +206,9 @@ impl NodeSettings for Settings {
             return Err(format!("target_position_m has {got} entries; it must have 2 (x, y), or none"));
         }
         if !self.target_position_m.is_empty() && self.gripper_joint.is_empty() {
-            return Err("what stands at target_position_m is picked up by a gripper: name its joint in gripper_joint".into());
+            return Err(
+                "what stands at target_position_m is picked up by a gripper: name its joint in gripper_joint".into()
+            );
         }
         if (self.gripper_open - self.gripper_closed).abs() < 1e-6 {
             return Err("gripper_open and gripper_closed are the same position".into());

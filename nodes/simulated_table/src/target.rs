@@ -88,11 +88,8 @@ impl Target {
             Some(tool_from_target) => {
                 let pose = tool * tool_from_target;
                 let (at, x_axis) = (pose.translation.vector, pose.rotation * Vector3::x());
-                self.stand = Stand {
-                    at_m: Point::new(at.x, at.y),
-                    base_m: at.z,
-                    yaw_rad: libm::atan2(x_axis.y, x_axis.x),
-                };
+                self.stand =
+                    Stand { at_m: Point::new(at.x, at.y), base_m: at.z, yaw_rad: libm::atan2(x_axis.y, x_axis.x) };
                 if apart_m > width_m + LETS_GO_M {
                     self.held = None;
                     let at_m = self.stand.at_m;

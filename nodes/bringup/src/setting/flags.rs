@@ -13,7 +13,8 @@ Examples:
 
 A setting is a parameter file with a section /**/setting: what stands on the table, and what is to be placed, in order
 (config/breakfast.yaml is one). Its other sections are for the nodes of every lesson. Each thing is a lesson of its own, with its
-own bag in the folder N-ID; once it is taught or finished, the thing stands where the robot would put it, in the way of the next.
+own bag in the folder N-ID; once it is taught or finished, the robot puts the thing where it belongs, in the way of the next.
+With execute: false nothing moves, and the thing is taken to stand where the robot would put it.
 
 Exit codes:
   0  everything has its place
@@ -22,7 +23,7 @@ Exit codes:
   129, 130, 143  interrupted; the same command with the same --session goes on";
 
 /// Flags that every lesson gets from the setting.
-const OWN: [&str; 4] = ["--scenario", "--session", "--summary", "--until-taught"];
+const OWN: [&str; 5] = ["--scenario", "--session", "--summary", "--until-taught", "--until-placed"];
 
 /// Teach a robot to set a whole table, one thing after another.
 #[derive(Debug, Clone, Parser)]

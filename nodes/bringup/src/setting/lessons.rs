@@ -53,6 +53,8 @@ struct Summary {
     questions_asked: u64,
     last_bound_m: Option<f64>,
     placement_m: Option<[f64; 2]>,
+    placed: Option<bool>,
+    placed_reason: Option<String>,
 }
 
 /// How a lesson ended, and in words.
@@ -65,6 +67,10 @@ pub(crate) fn ending(files: &Files) -> Option<Ending> {
     let summary: Summary = serde_json::from_str(&text).ok()?;
     let questions = summary.questions_asked;
     match (summary.state.as_str(), summary.placement_m) {
+        ("taught" | "finished", _) if summary.placed == Some(false) => {
+            let why = summary.placed_reason.unwrap_or_default();
+            Some((Outcome::Left, format!("left off: the robot did not put it there: {why}")))
+        }
         ("taught" | "finished", Some([x, y])) if x.is_finite() && y.is_finite() => {
             let bound = summary
                 .last_bound_m

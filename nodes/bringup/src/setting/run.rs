@@ -123,7 +123,7 @@ fn arguments(file: &Path, files: &Files, more: &[String]) -> Vec<String> {
         text(&files.session),
         "--summary".to_owned(),
         text(&files.summary),
-        "--until-taught".to_owned(),
+        "--until-placed".to_owned(),
         "--params-file".to_owned(),
         text(&files.parameters),
     ];

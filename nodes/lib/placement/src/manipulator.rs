@@ -275,7 +275,8 @@ impl Manipulator {
         let axis = self.gripper().map_or(ClosingAxis::default(), |gripper| gripper.axis);
         let tool_from_point = held.tool_from_point(axis);
         // The tool's z axis points down, the target's centre is below the tool.
-        let below = Isometry3::from_parts(Translation3::new(0.0, 0.0, grip_height_m - 0.5 * height), about_z(held.turn_rad));
+        let below =
+            Isometry3::from_parts(Translation3::new(0.0, 0.0, grip_height_m - 0.5 * height), about_z(held.turn_rad));
         let placed = Placed { solid: solid(&scene.target), owner_from_solid: tool_from_point * below };
         world.hold(&scene.target.id, self.chain.tool, placed, self.hand.clone());
         let chain = self.chain.moving_point(&tool_from_point);

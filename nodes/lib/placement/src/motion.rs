@@ -90,7 +90,8 @@ impl Pace {
     /// taken from.
     pub fn timed(&self, space: &mut ArmSpace, path: &Path) -> Option<motion::Trajectory> {
         let timed = time(space, path, &self.limits, self.sample_s).ok()?;
-        let free = timed.points.windows(2).all(|pair| space.edge_touches_nothing(&pair[0].positions, &pair[1].positions));
+        let free =
+            timed.points.windows(2).all(|pair| space.edge_touches_nothing(&pair[0].positions, &pair[1].positions));
         free.then_some(timed)
     }
 }

@@ -3,9 +3,7 @@
 use crate::manipulator::{Cell, solid};
 use crate::motion::{MOST_POSTURES, POSTURE_RESTARTS, Pace, rise};
 use crate::space::ArmSpace;
-use arm::{
-    Goal, IkSettings, Isometry3, Obstacle, Placed, Translation3, Vector3, about_axis, about_z, solutions,
-};
+use arm::{Goal, IkSettings, Isometry3, Obstacle, Placed, Translation3, Vector3, about_axis, about_z, solutions};
 use motion::Path;
 use scene::{Point, Scene, Shape};
 use std::f64::consts::PI;
@@ -58,7 +56,8 @@ impl Cell<'_> {
         // What the root holds stands still.
         let placed = Placed { solid: solid(&scene.target), owner_from_solid: self.standing(scene, stand) };
         let robot = self.manipulator.robot();
-        let touched = (0..robot.links.len()).map(|link| self.manipulator.hand()[link] || robot.fixed_pose(link).is_some());
+        let touched =
+            (0..robot.links.len()).map(|link| self.manipulator.hand()[link] || robot.fixed_pose(link).is_some());
         cell.world.hold(&scene.target.id, 0, placed, touched.collect());
         let names: Vec<String> = cell.world.obstacle_names().map(str::to_owned).collect();
         names.iter().for_each(|name| cell.world.let_held_touch(name));
@@ -70,7 +69,9 @@ impl Cell<'_> {
         let mut cell = self.clone();
         let radius_m = scene.target.shape.bounding_radius_m();
         let under = scene.objects.iter().filter(|object| object.supports && object.distance_m(stand.at_m) < radius_m);
-        std::iter::once("table").chain(under.map(|object| object.id.as_str())).for_each(|name| cell.world.let_held_touch(name));
+        std::iter::once("table")
+            .chain(under.map(|object| object.id.as_str()))
+            .for_each(|name| cell.world.let_held_touch(name));
         cell
     }
 

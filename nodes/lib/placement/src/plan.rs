@@ -5,8 +5,8 @@ use crate::candidate::{Candidate, Verdict, clearance_m};
 use crate::choice::{Judge, Ranked};
 use crate::losses::{LossBatch, placement_optima};
 use crate::manipulator::{Manipulator, ManipulatorError};
-use crate::reach::ReachMap;
 use crate::picking::{Source, pick};
+use crate::reach::ReachMap;
 use crate::trajectory::Trajectory;
 use crate::{Choice, MotionSettings, motion};
 use arm::{Exclusions, Robot};
@@ -319,7 +319,8 @@ impl Task<'_> {
                 Some(picked) => carried.carry.after(&picked.up),
                 None => carried.carry,
             };
-            plan.approach = picked.map_or(Trajectory::default(), |picked| Trajectory::new(manipulator, picked.approach));
+            plan.approach =
+                picked.map_or(Trajectory::default(), |picked| Trajectory::new(manipulator, picked.approach));
             plan.retreat = carried.retreat;
             plan.outcome = PlanOutcome::Planned;
             plan.robust_placement_m = Some(candidate.at_m);

@@ -54,8 +54,29 @@ pub struct ArmMotionView {
     pub poses: Vec<Vec<f64>>,
     /// The way of the hand: x, y, z for each point.
     pub way: Vec<f64>,
+    /// When the target comes into the hand, and when it leaves it, seconds.
+    pub held_s: [f64; 2],
+    /// Where the target stands before that; none: it is in the hand.
+    pub pick: Option<[f64; 7]>,
     /// The target where it will stand.
     pub target: Option<ObjectView>,
     /// The height it will stand at.
     pub target_z_m: f64,
+}
+
+/// What the arm is doing about a plan, or how that came out.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CarryingView {
+    /// Of the plan.
+    pub revision: u64,
+    /// "approaching", "grasping", "moving", "releasing" or "retreating".
+    pub stage: &'static str,
+    /// Of the whole, 0 to 1.
+    pub progress: f64,
+    /// Whether it is over.
+    pub over: bool,
+    /// Whether the target stands where it should.
+    pub done: bool,
+    /// Once it is over: why it ended.
+    pub reason: String,
 }

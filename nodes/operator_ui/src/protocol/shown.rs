@@ -85,7 +85,7 @@ pub struct PlanView {
     /// The scene it is for.
     pub scene_id: String,
     /// `planned`, `no_free_place`, `unreachable`, `no_path`, `no_robot`, `start_in_collision`,
-    /// `goal_in_collision`, `joints_unknown`, `outside_limits` or `unknown`.
+    /// `goal_in_collision`, `joints_unknown`, `outside_limits`, `cannot_pick` or `unknown`.
     pub outcome: &'static str,
     /// In words.
     pub reason: String,

@@ -16,7 +16,8 @@ use apprentice_msgs::builtin_interfaces::{Duration, Time};
 use apprentice_msgs::control_msgs::{
     FollowJointTrajectory, FollowJointTrajectoryGoal, GripperCommandAction, GripperCommandGoal,
 };
-use apprentice_msgs::msg::PlacementPlan;
+use apprentice_msgs::msg::{Carrying, PlacementPlan};
+use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
 use bus::{ActionEvent, End, GoalId};
 use controllers::News;
@@ -54,6 +55,8 @@ pub enum Deed {
     Publish(Box<JointTrajectory>),
     /// Tell whoever asked for an object to be placed how far it is.
     Feedback(GoalId, PlaceObjectFeedback),
+    /// Tell everybody what the arm is doing.
+    Tell(Box<Carrying>),
     /// Tell them how it ended.
     Finish(GoalId, End, Box<PlaceObjectResult>),
     /// Tell the log how the motion of a plan ended.
@@ -182,7 +185,8 @@ impl Carrier {
         motion.phase = if is_watched { Phase::Sent } else { Phase::Moving };
         (motion.goal_id, motion.attempt, motion.finger) = (goal_id, 1, None);
         (motion.since, motion.asked_at, motion.seen) = (now, now, now);
-        let mut deeds: Vec<Deed> = motion.tell(0.0).into_iter().collect();
+        let mut deeds = vec![Deed::Tell(Box::new(motion.news(now)))];
+        deeds.extend(motion.tell(0.0));
         deeds.extend(motion.send(fingers, is_watched));
         deeds
     }
@@ -238,7 +242,11 @@ impl Carrier {
         match news {
             News::Answered(true) => motion.accepted(now),
             News::Answered(false) if matches!(motion.phase, Phase::Sent) => {
-                let what = if motion.limb() == Limb::Arm { "controller refused the trajectory" } else { "gripper's controller refused" };
+                let what = if motion.limb() == Limb::Arm {
+                    "controller refused the trajectory"
+                } else {
+                    "gripper's controller refused"
+                };
                 self.fail(&format!("the {what}"))
             }
             News::Answered(false) => Vec::new(),
@@ -302,7 +310,8 @@ impl Carrier {
                 std::iter::once(Deed::Cancel(limb, old)).chain(motion.send(fingers, true)).collect()
             }
             Phase::Moving if waited_s > motion.step().seconds() + self.patience_s => {
-                let late = format!("{} took {waited_s:.1} s instead of {:.1} s", motion.what(), motion.step().seconds());
+                let late =
+                    format!("{} took {waited_s:.1} s instead of {:.1} s", motion.what(), motion.step().seconds());
                 self.stop(now, PlaceObjectResult::CONTROLLER_FAILED, &late)
             }
             Phase::Stopping { outcome, reason } if waited_s > CANCEL_S => {
@@ -394,7 +403,11 @@ impl Carrier {
     fn end(&mut self, outcome: u8, reason: &str) -> Vec<Deed> {
         let Some(motion) = self.motion.take() else { return Vec::new() };
         let result = result_of(&motion.plan, outcome, reason);
-        let mut deeds: Vec<Deed> = motion.asked.map(|goal_id| finish(goal_id, result.clone())).into_iter().collect();
+        let progress = if outcome == PlaceObjectResult::DONE { 1.0 } else { motion.progress(0.0) };
+        let news = motion.news(motion.seen);
+        let news = Carrying { description: reason.to_owned(), progress, over: true, outcome, ..news };
+        let mut deeds = vec![Deed::Tell(Box::new(news))];
+        deeds.extend(motion.asked.map(|goal_id| finish(goal_id, result.clone())));
         deeds.push(Deed::Over(motion.plan, result));
         deeds
     }
@@ -456,13 +469,33 @@ impl Motion {
         vec![Deed::AskResult(self.limb(), self.goal_id)]
     }
 
-    /// How far it is, `done_s` into the step.
-    fn tell(&self, done_s: f64) -> Option<Deed> {
+    /// How far it is, for everybody.
+    fn news(&self, now: Time) -> Carrying {
+        let step = self.step();
+        Carrying {
+            header: Header { stamp: now, frame_id: self.plan.scene.header.frame_id.clone() },
+            revision: self.plan.revision,
+            object_id: self.plan.scene.target.id.clone(),
+            stage: step.stage,
+            description: step.words().to_owned(),
+            progress: self.progress(0.0),
+            placement: self.plan.robust_placement,
+            ..Carrying::default()
+        }
+    }
+
+    /// Of the whole, `done_s` into the step, 0 to 1.
+    fn progress(&self, done_s: f64) -> f64 {
         let before_s: f64 = self.steps[..self.at].iter().map(Step::seconds).sum();
         let total_s: f64 = self.steps.iter().map(Step::seconds).sum();
+        ((before_s + done_s.clamp(0.0, self.step().seconds())) / total_s.max(1e-3)).clamp(0.0, 1.0)
+    }
+
+    /// How far it is, for whoever asked for it.
+    fn tell(&self, done_s: f64) -> Option<Deed> {
         let step = self.step();
-        let progress = ((before_s + done_s.clamp(0.0, step.seconds())) / total_s.max(1e-3)).clamp(0.0, 1.0);
-        let feedback = PlaceObjectFeedback { stage: step.stage, description: step.words().to_owned(), progress };
+        let description = step.words().to_owned();
+        let feedback = PlaceObjectFeedback { stage: step.stage, description, progress: self.progress(done_s) };
         self.asked.map(|goal_id| Deed::Feedback(goal_id, feedback))
     }
 }

@@ -85,10 +85,7 @@ pub(super) fn of_plan(plan: &PlacementPlan) -> Vec<Step> {
 /// Where nothing was in the gripper: open it, and back the way it came.
 pub(super) fn of_giving_up(plan: &PlacementPlan) -> Vec<Step> {
     let back = reversed(&plan.approach);
-    vec![
-        Step::open(PlaceObjectFeedback::RETREATING, plan),
-        Step::moving(PlaceObjectFeedback::RETREATING, &back),
-    ]
+    vec![Step::open(PlaceObjectFeedback::RETREATING, plan), Step::moving(PlaceObjectFeedback::RETREATING, &back)]
 }
 
 /// The same motion backwards, as fast.
