@@ -1,5 +1,5 @@
 //! The nodes on a graph within one process: every kind of evidence, undo to the bit, policies judged, and what they make of bad
-//! evidence and damaged bytes.
+//! evidence and damaged bytes; and things picked up and put down in a simulated world.
 
 mod bad_evidence;
 mod evidence;
@@ -8,6 +8,7 @@ mod graph_file;
 mod log_lines;
 mod malformed;
 mod moved;
+mod picking;
 mod policies;
 mod row;
 mod rviz;

@@ -29,7 +29,7 @@ pub struct Story {
     told_bound: Option<u64>,
     told_state: Option<(u8, u64)>,
     told_plan: Option<u64>,
-    told_carrying: Option<(u64, u8, bool)>,
+    told_carrying: Option<(u64, String)>,
     widest_m: f64,
     world: WorldStory,
 }
@@ -150,10 +150,10 @@ impl Story {
         Some((Kind::Plan, format!("    the {target} goes to ({:.2}, {:.2}) m; the arm needs {all_s:.1} s", at.x, at.y)))
     }
 
-    /// Each stage once, and how it ended.
+    /// Each step once, and how it ended.
     fn carrying(&mut self, carrying: &Carrying) -> Option<(Kind, String)> {
-        let stage = (carrying.revision, carrying.stage, carrying.over);
-        if self.told_carrying.replace(stage) == Some(stage) {
+        let step = Some((carrying.revision, carrying.description.clone()));
+        if std::mem::replace(&mut self.told_carrying, step.clone()) == step {
             return None;
         }
         let target = self.table.as_ref().map_or("target".to_owned(), |table| short(&table.target.label));

@@ -270,7 +270,7 @@ fn the_summary_says_what_happened_and_null_for_what_did_not() {
     let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let wanted = serde_json::json!({
         "taught": true, "state": "taught", "why": "because", "questions_asked": 12, "answers": 2, "demonstrations": 11,
-        "last_bound_m": 0.09, "epsilon_m": 0.1, "placement_m": [0.5, 0.52], "wall_time_s": 9.0,
+        "last_bound_m": 0.09, "epsilon_m": 0.1, "placement_m": [0.5, 0.52], "placed": null, "wall_time_s": 9.0,
         "start_to_first_question_s": 1.0, "answer_to_next_question_ms": {"p50": 1000.0, "p99": 1000.0, "n": 1},
         "bag": "bags/s/bag", "session": "bags/s", "scenario": "flowers", "demonstrator": "simulated", "seed": 7,
         "version": env!("CARGO_PKG_VERSION"), "commit": "abc", "nodes": {"active_query": {"starts": 2, "deaths": 1}}

@@ -6,9 +6,11 @@ use crate::sighting::{Elsewhere, Sighting, Table, matched};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Pose, PoseStamped};
 use apprentice_msgs::msg::TableScene;
+use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::vision_msgs::{Detection3D, Detection3DArray};
-use exchange::scene_to_message;
+use arm::Isometry3;
+use exchange::{pose_at, scene_to_message};
 use scene::{ListError, Object, Scene, Shape};
 
 /// More detections of one message are not looked at.
@@ -21,6 +23,8 @@ pub enum Event {
     Detections(Box<Detection3DArray>),
     /// Where a tracker sees the object of this number.
     Pose(usize, Box<PoseStamped>),
+    /// Where a tracker sees the thing to place.
+    TargetPose(Box<PoseStamped>),
     /// Where frames are.
     Transforms(Box<TFMessage>),
     /// Twice a second.
@@ -32,6 +36,8 @@ pub enum Event {
 pub enum Output {
     /// The table.
     Scene(Box<TableScene>),
+    /// Where the thing to place stands: the middle of its base, upright, in the table's frame.
+    TargetPose(PoseStamped),
     /// Whether all is well, and in words what is seen or missing.
     Status(bool, String),
 }
@@ -98,7 +104,16 @@ impl TablePerceptionNode {
                 self.frames.take(&message);
                 return Vec::new();
             }
-            Event::Detections(message) => self.detections(now, &message),
+            Event::Detections(message) => {
+                let target = self.detections(now, &message);
+                return target.into_iter().chain(self.say(now, false)).collect();
+            }
+            Event::TargetPose(message) => {
+                self.trouble = None;
+                let (header, name) = (&message.header, self.known.target.label.clone());
+                let seen = self.target(&name, header.stamp, &header.frame_id, &message.pose);
+                return seen.into_iter().chain(self.say(now, false)).collect();
+            }
             Event::Pose(i, message) => self.pose(now, i, &message),
             Event::Tick => {
                 self.ticks += 1;
@@ -109,13 +124,22 @@ impl TablePerceptionNode {
         self.say(now, false)
     }
 
-    fn detections(&mut self, now: Time, message: &Detection3DArray) {
+    /// Takes note of what is seen; where the thing to place stands is told at once.
+    fn detections(&mut self, now: Time, message: &Detection3DArray) -> Option<Output> {
         self.trouble = None;
+        let mut target: Option<(f64, String, Pose)> = None;
         let mut by_class: Vec<(String, Vec<Sighting>)> = Vec::new();
         for detection in message.detections.iter().take(MAX_DETECTIONS) {
-            let Some((class, pose)) = self.best(detection) else { continue };
+            let Some((class, score, pose)) = self.best(detection) else { continue };
             let own = &detection.header.frame_id;
             let frame = if own.is_empty() { &message.header.frame_id } else { own };
+            if self.of_class(&class).is_empty() {
+                // There is one thing to place: the most probable one.
+                if target.as_ref().is_none_or(|(known, ..)| score > *known) {
+                    target = Some((score, frame.clone(), pose));
+                }
+                continue;
+            }
             let Some(sighting) = self.sight(&class, frame, &pose) else { continue };
             match by_class.iter_mut().find(|(known, _)| *known == class) {
                 Some((_, seen)) => seen.push(sighting),
@@ -132,6 +156,18 @@ impl TablePerceptionNode {
                 }
             }
         }
+        let name = self.known.target.label.clone();
+        target.and_then(|(_, frame, pose)| self.target(&name, stamp, &frame, &pose))
+    }
+
+    /// Where the thing to place stands, its middle being at a pose.
+    fn target(&mut self, name: &str, stamp: Time, frame: &str, pose: &Pose) -> Option<Output> {
+        let pose = self.in_table_frame(name, frame, pose)?;
+        let seen = self.table.sight_nearby(&pose);
+        let ([x, y, z], yaw_rad) = self.or_trouble(name, seen)?;
+        let header = Header { stamp, frame_id: self.settings.frame.clone() };
+        let base_m = z - 0.5 * self.known.target.shape.height_m();
+        Some(Output::TargetPose(PoseStamped { header, pose: pose_at([x, y, base_m], yaw_rad) }))
     }
 
     fn pose(&mut self, now: Time, i: usize, message: &PoseStamped) {
@@ -143,17 +179,18 @@ impl TablePerceptionNode {
         }
     }
 
-    /// Class and pose of the most probable hypothesis, when it is probable enough and about something on the table.
-    fn best(&self, detection: &Detection3D) -> Option<(String, Pose)> {
+    /// Class, score and pose of the most probable hypothesis, when it is probable enough and about something that is known.
+    fn best(&self, detection: &Detection3D) -> Option<(String, f64, Pose)> {
         let scored = detection.results.iter().filter(|result| result.hypothesis.score.is_finite());
         let best = scored.max_by(|a, b| a.hypothesis.score.total_cmp(&b.hypothesis.score))?;
         let class = &best.hypothesis.class_id;
-        if best.hypothesis.score < self.settings.min_score || self.of_class(class).is_empty() {
+        let is_known = !self.of_class(class).is_empty() || class == self.settings.target_class();
+        if best.hypothesis.score < self.settings.min_score || !is_known {
             return None;
         }
         // Many detectors say where the box is and leave the pose empty.
         let pose = if says_nothing(&best.pose.pose) { detection.bbox.center } else { best.pose.pose };
-        Some((class.clone(), pose))
+        Some((class.clone(), best.hypothesis.score, pose))
     }
 
     fn of_class(&self, class: &str) -> Vec<usize> {
@@ -163,6 +200,12 @@ impl TablePerceptionNode {
 
     /// A pose on the table; what keeps it from being one is remembered as trouble, unless it is simply elsewhere.
     fn sight(&mut self, name: &str, frame: &str, pose: &Pose) -> Option<Sighting> {
+        let pose = self.in_table_frame(name, frame, pose)?;
+        let seen = self.table.sight(&pose);
+        self.or_trouble(name, seen)
+    }
+
+    fn in_table_frame(&mut self, name: &str, frame: &str, pose: &Pose) -> Option<Isometry3<f64>> {
         let table = &self.settings.frame;
         let Some(of_frame) = self.frames.between(table, frame) else {
             self.trouble = Some(format!("tf does not connect '{}' with '{table}'", short(frame)));
@@ -172,8 +215,12 @@ impl TablePerceptionNode {
             self.trouble = Some(format!("the pose of '{}' is not finite, or has no direction", short(name)));
             return None;
         };
-        match self.table.sight(&(of_frame * pose)) {
-            Ok(sighting) => Some(sighting),
+        Some(of_frame * pose)
+    }
+
+    fn or_trouble<T>(&mut self, name: &str, seen: Result<T, Elsewhere>) -> Option<T> {
+        match seen {
+            Ok(seen) => Some(seen),
             Err(Elsewhere::Off) => None,
             Err(Elsewhere::Tilted(by_rad)) => {
                 self.trouble = Some(format!("'{}' is tilted by {:.0} degrees", short(name), by_rad.to_degrees()));

@@ -38,6 +38,10 @@ pub struct Settings {
     pub target_shape: String,
     /// Three extents, metres.
     pub target_size_m: Vec<f64>,
+    /// What the detector calls it; empty: its id.
+    pub target_class: String,
+    /// A topic of `PoseStamped` for it; empty: none.
+    pub target_pose_topic: String,
     /// Detections with a lower score do not count.
     pub min_score: f64,
     /// What is tilted by more does not stand, radians.
@@ -70,6 +74,8 @@ impl Default for Settings {
             target_label: "target".to_owned(),
             target_shape: "cylinder".to_owned(),
             target_size_m: vec![0.08, 0.08, 0.2],
+            target_class: String::new(),
+            target_pose_topic: String::new(),
             min_score: 0.5,
             max_tilt_rad: 0.35,
             reach_m: 0.5,
@@ -105,6 +111,11 @@ impl Settings {
             objects: listed.objects()?,
             target: listed_target(&self.target_id, &self.target_label, &self.target_shape, &self.target_size_m)?,
         })
+    }
+
+    /// What the detector calls the thing to place.
+    pub(crate) fn target_class(&self) -> &str {
+        if self.target_class.is_empty() { &self.target_id } else { &self.target_class }
     }
 
     /// What the detector calls a thing.
@@ -159,6 +170,16 @@ impl NodeSettings for Settings {
         ParameterSpec { name: "target_label", about: "what people call it", range: Range::Any },
         ParameterSpec { name: "target_shape", about: "its shape", range: SHAPES },
         ParameterSpec { name: "target_size_m", about: "its three extents: x, y, z, metres", range: EXTENT_M },
+        ParameterSpec {
+            name: "target_class",
+            about: "what the detector calls it (class_id); empty: its id; where things on the table are called so too, they are meant",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "target_pose_topic",
+            about: "a topic of geometry_msgs/PoseStamped when a tracker follows it; empty: none",
+            range: Range::Any,
+        },
         ParameterSpec {
             name: "min_score",
             about: "detections with a lower score do not count",

@@ -3,6 +3,9 @@
 use arm::{Isometry3, Vector3};
 use scene::Point;
 
+/// What is farther from the table than this is not for it, metres.
+const NEARBY_M: f64 = 2.0;
+
 /// Where something was seen, in the table's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sighting {
@@ -39,6 +42,22 @@ impl Table {
         if !is_on || at.z.abs() > self.reach_m {
             return Err(Elsewhere::Off);
         }
+        Ok(Sighting { at: Point::new(at.x, at.y), yaw_rad: self.upright(pose)? })
+    }
+
+    /// Where the middle of something is that stands on the table, near it, or on a tray beside it: metres, and radians about the
+    /// vertical.
+    pub fn sight_nearby(&self, pose: &Isometry3<f64>) -> Result<([f64; 3], f64), Elsewhere> {
+        let at = pose.translation.vector;
+        let is_near = |along_m: f64, extent_m: f64| (-NEARBY_M..=extent_m + NEARBY_M).contains(&along_m);
+        if !(is_near(at.x, self.width_m) && is_near(at.y, self.depth_m) && is_near(at.z, 0.0)) {
+            return Err(Elsewhere::Off);
+        }
+        Ok((at.into(), self.upright(pose)?))
+    }
+
+    /// How something that stands is turned about the vertical, radians.
+    fn upright(&self, pose: &Isometry3<f64>) -> Result<f64, Elsewhere> {
         let up = pose.rotation * Vector3::z();
         // What stands on its head stands: detectors often confuse the two.
         let tilt_rad = up.x.hypot(up.y).atan2(up.z.abs());
@@ -46,7 +65,7 @@ impl Table {
             return Err(Elsewhere::Tilted(tilt_rad));
         }
         let along = pose.rotation * Vector3::x();
-        Ok(Sighting { at: Point::new(at.x, at.y), yaw_rad: along.y.atan2(along.x) })
+        Ok(along.y.atan2(along.x))
     }
 }
 

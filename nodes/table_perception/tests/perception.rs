@@ -56,11 +56,16 @@ fn seen(detections: Vec<Detection3D>) -> Event {
 struct Bench {
     node: TablePerceptionNode,
     status: String,
+    target: Option<PoseStamped>,
 }
 
 impl Bench {
     fn new() -> Self {
-        Self { node: TablePerceptionNode::new(settings()).expect("lists that fit"), status: String::new() }
+        Self {
+            node: TablePerceptionNode::new(settings()).expect("lists that fit"),
+            status: String::new(),
+            target: None,
+        }
     }
 
     fn step(&mut self, now_s: f64, event: Event) -> Option<TableScene> {
@@ -69,6 +74,7 @@ impl Bench {
         for output in self.node.step(now, event) {
             match output {
                 Output::Scene(message) => scene = Some(*message),
+                Output::TargetPose(pose) => self.target = Some(pose),
                 Output::Status(_, text) => self.status = text,
             }
         }
@@ -222,4 +228,60 @@ proptest! {
             assert!(exchange::scene_from_message(&scene).is_ok());
         }
     }
+}
+
+/// The camera sees the thing to place, its middle 10 cm above the table's surface.
+fn vase(score: f64, x: f64, y: f64, yaw_rad: f64) -> Detection3D {
+    let mut pose = in_camera(x, y, yaw_rad);
+    pose.position.z = 0.9;
+    detection("target", score, pose)
+}
+
+#[test]
+fn where_the_thing_to_place_stands_is_told_on_the_table_and_beside_it() {
+    let mut bench = Bench::ready();
+    assert!(bench.target.is_none(), "nobody has seen it");
+    for (x, y) in [(0.4, 0.6), (1.2, 0.1)] {
+        bench.step(2.0, seen(vec![vase(0.9, x, y, 0.3)]));
+        let told = bench.target.take().expect("it is seen");
+        assert_eq!((told.header.frame_id.as_str(), told.header.stamp.sec), ("table", 7));
+        let Pose { position, orientation } = told.pose;
+        // 20 cm high: its base is 10 cm below its middle.
+        assert!(near((position.x, position.y), (x, y)) && position.z.abs() < 1e-9, "{position:?}");
+        assert!((2.0 * orientation.z.atan2(orientation.w) - 0.3).abs() < 1e-9 && orientation.x == 0.0);
+    }
+    // The likeliest of several is meant; none of them is a thing on the table.
+    let scene =
+        bench.step(6.0, seen(vec![vase(0.6, 0.1, 0.1, 0.0), vase(0.8, 0.9, 0.9, 0.0), vase(0.7, 0.2, 0.1, 0.0)]));
+    let told = bench.target.take().expect("it is seen").pose.position;
+    assert!(near((told.x, told.y), (0.9, 0.9)) && scene.is_none());
+}
+
+#[test]
+fn what_lies_or_is_far_away_is_not_picked_up() {
+    let mut bench = Bench::ready();
+    let mut lying = vase(0.9, 0.4, 0.6, 0.0);
+    lying.results[0].pose.pose.orientation = Quaternion { x: 0.5, y: 0.5, z: 0.5, w: 0.5 };
+    bench.step(2.0, seen(vec![lying]));
+    assert!(bench.target.is_none() && bench.status.contains("'target' is tilted by 90 degrees"), "{}", bench.status);
+    bench.step(2.1, seen(vec![vase(0.9, 3.1, 0.5, 0.0)]));
+    bench.step(2.2, seen(vec![vase(0.3, 0.4, 0.5, 0.0)]));
+    assert!(bench.target.is_none(), "on another table, or hardly seen");
+}
+
+#[test]
+fn a_class_that_things_on_the_table_have_too_is_theirs() {
+    let cups = Settings { target_class: "cup".into(), ..settings() };
+    let mut bench = Bench { node: TablePerceptionNode::new(cups).expect("lists that fit"), ..Bench::new() };
+    bench.step(0.0, camera());
+    assert!(bench.step(1.0, all()).is_some() && bench.target.is_none());
+    // A tracker of its own tells it apart.
+    let header = Header { frame_id: "table".into(), ..Header::default() };
+    let pose = Pose {
+        position: Point { x: 0.1, y: 0.2, z: 0.1 },
+        orientation: Quaternion { w: 1.0, ..Quaternion::default() },
+    };
+    bench.step(1.5, Event::TargetPose(Box::new(PoseStamped { header, pose })));
+    let told = bench.target.expect("it is tracked").pose.position;
+    assert!(near((told.x, told.y), (0.1, 0.2)) && told.z.abs() < 1e-12);
 }

@@ -1,11 +1,14 @@
 //! Picking up, carrying and putting down, from end to end: the planner and the simulated world in one process and in one's own time.
 
 use apprentice_msgs::action::{PlaceObjectFeedback, PlaceObjectGoal, PlaceObjectResult};
-use apprentice_msgs::builtin_interfaces::Time;
+use apprentice_msgs::action_msgs::GoalStatus;
+use apprentice_msgs::builtin_interfaces::{Duration, Time};
+use apprentice_msgs::control_msgs::GripperCommandResult;
 use apprentice_msgs::geometry_msgs::PoseStamped;
-use apprentice_msgs::msg::{LessonStatus, PlacementPlan, Posterior, TableScene};
+use apprentice_msgs::msg::{Carrying, LessonStatus, PlacementPlan, Posterior, TableScene};
+use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
 use apprentice_msgs::{from_cdr, to_cdr};
-use bus::{ActionRequest, GoalId};
+use bus::{ActionEvent, ActionRequest, GoalId};
 use placement_planner::{Deed, Event, Heard, Output, PlacementPlanner, Request, Settings};
 use scene::Rbf;
 use simulated_table::{BUILT_IN_URDF, SimulatedTableNode};
@@ -13,6 +16,19 @@ use simulated_table::{BUILT_IN_URDF, SimulatedTableNode};
 /// Where the thing to place stands at first: beside the table.
 const TRAY_M: [f64; 2] = [1.1, 0.15];
 const STEP_NS: i64 = 50_000_000;
+
+/// How a gripper's controller of ros2_control's kind takes goals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Manner {
+    /// Fingers that something stops have arrived: `allow_stalling: true`.
+    AllowsStalling,
+    /// They have failed, and the result says that they stalled: the default.
+    AbortsOnStalling,
+    Refuses,
+    Deaf,
+    /// It takes a goal, fails and says nothing of stalling.
+    Fails,
+}
 
 /// The planner, the world, and what the planner said.
 struct World {
@@ -24,7 +40,12 @@ struct World {
     /// Whether the planner is told where the target is, and where it is told that it is, when that is not so.
     sees: bool,
     seen_at: Option<[f64; 2]>,
+    /// The gripper's controller, and what it is at: until when, the goal, and where the fingers are to go.
+    manner: Option<Manner>,
+    gripping: Option<(i64, GoalId, f64)>,
+    grips: usize,
     plan: Option<PlacementPlan>,
+    carryings: Vec<Carrying>,
     stages: Vec<u8>,
     results: Vec<PlaceObjectResult>,
 }
@@ -82,7 +103,11 @@ impl World {
             pose: None,
             sees: true,
             seen_at: None,
+            manner: None,
+            gripping: None,
+            grips: 0,
             plan: None,
+            carryings: Vec::new(),
             stages: Vec::new(),
             results: Vec::new(),
         };
@@ -108,6 +133,8 @@ impl World {
                     let said = self.table.step(now, simulated_table::Event::Trajectory(*trajectory));
                     assert!(said.is_empty(), "the world follows: {said:?}");
                 }
+                Output::Deed(Deed::Tell(carrying)) => self.carryings.push(*carrying),
+                Output::Deed(Deed::Grip(goal_id, goal)) => self.grip(goal_id, goal.command.position),
                 Output::Deed(Deed::Feedback(_, feedback)) if self.stages.last() != Some(&feedback.stage) => {
                     self.stages.push(feedback.stage);
                 }
@@ -115,6 +142,39 @@ impl World {
                 _ => {}
             }
         }
+    }
+
+    /// The gripper's controller gets a goal.
+    fn grip(&mut self, goal_id: GoalId, to: f64) {
+        self.grips += 1;
+        let accepted = match self.manner {
+            None => panic!("there is no controller of the gripper"),
+            Some(Manner::Deaf) => return,
+            Some(Manner::Refuses) => false,
+            Some(_) => true,
+        };
+        if accepted {
+            let point = JointTrajectoryPoint {
+                positions: vec![to],
+                time_from_start: Duration::from_seconds(0.5),
+                ..JointTrajectoryPoint::default()
+            };
+            let joint_names = vec!["finger_left".to_owned()];
+            let trajectory = JointTrajectory { joint_names, points: vec![point], ..JointTrajectory::default() };
+            self.table.step(self.now(), simulated_table::Event::Trajectory(trajectory));
+            self.gripping = Some((self.now_ns + 600_000_000, goal_id, to));
+        }
+        self.tell(Event::Gripper(Box::new(ActionEvent::Answered { goal_id, accepted })));
+    }
+
+    /// The gripper's controller tells how it went.
+    fn gripped(&mut self, goal_id: GoalId, to: f64) {
+        let finger = self.joints()[6];
+        let stalled = (finger - to).abs() > 1e-4 && self.manner != Some(Manner::Fails);
+        let failed = self.manner == Some(Manner::Fails) || (stalled && self.manner == Some(Manner::AbortsOnStalling));
+        let status = if failed { GoalStatus::STATUS_ABORTED } else { GoalStatus::STATUS_SUCCEEDED };
+        let result = GripperCommandResult { position: finger, effort: 0.0, stalled, reached_goal: !stalled };
+        self.tell(Event::Gripper(Box::new(ActionEvent::Finished { goal_id, status, result })));
     }
 
     /// A twentieth of a second passes.
@@ -135,7 +195,10 @@ impl World {
                 other => panic!("{other:?}"),
             }
         }
-        self.tell(Event::Tick(Heard::default()));
+        if let Some((_, goal_id, to)) = self.gripping.take_if(|(until_ns, ..)| *until_ns <= self.now_ns) {
+            self.gripped(goal_id, to);
+        }
+        self.tell(Event::Tick(Heard { arm: false, gripper: true }));
     }
 
     /// Long enough for everything to have been said.
@@ -330,4 +393,57 @@ fn a_gripper_lets_go_of_what_was_put_into_the_hand() {
     let plan = world.plan();
     let (down, up) = (plan.trajectory.points.last(), plan.retreat.points.first());
     assert_eq!(down.map(|point| &point.positions), up.map(|point| &point.positions), "up from where it let go");
+}
+
+#[test]
+fn a_controller_of_the_gripper_is_told_once_a_step_and_stalling_is_holding() {
+    for manner in [Manner::AllowsStalling, Manner::AbortsOnStalling] {
+        let settings = Settings { gripper_controller: "/gripper/gripper_cmd".into(), ..settings() };
+        let mut world = World::new(settings, &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+        world.manner = Some(manner);
+        let result = world.place();
+        assert_eq!(result.outcome, PlaceObjectResult::DONE, "{manner:?}: {}", result.reason);
+        assert_eq!((world.grips, &world.stages[..]), (3, &ALL_STAGES[..]), "open, close, open");
+        assert!(near(world.at(), [result.placement.x, result.placement.y, 0.0], 1e-3), "{:?}", world.at());
+    }
+}
+
+#[test]
+fn a_controller_of_the_gripper_that_fails_is_told_with_the_reason() {
+    for (manner, words, grips) in [
+        (Manner::Refuses, "the gripper's controller refused", 1),
+        (Manner::Deaf, "the gripper's controller does not answer", 3),
+        (Manner::Fails, "the gripper's controller gave up", 1),
+    ] {
+        let settings = Settings { gripper_controller: "/gripper/gripper_cmd".into(), ..settings() };
+        let mut world = World::new(settings, &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+        world.manner = Some(manner);
+        let before = world.joints();
+        let result = world.place();
+        assert_eq!(result.outcome, PlaceObjectResult::GRASP_FAILED, "{manner:?}: {}", result.reason);
+        assert!(result.reason.contains(words), "{manner:?}: {}", result.reason);
+        assert_eq!(world.grips, grips, "{manner:?}");
+        assert_eq!(world.joints()[..6], before[..6], "the arm has not moved");
+    }
+}
+
+#[test]
+fn what_the_arm_does_is_told_to_everybody() {
+    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+    assert_eq!(world.place().outcome, PlaceObjectResult::DONE);
+    let said: Vec<&str> = world.carryings.iter().map(|carrying| carrying.description.as_str()).collect();
+    let steps = [
+        "the gripper opens",
+        "the empty hand goes to it",
+        "the gripper closes",
+        "the arm takes it there",
+        "the gripper lets go",
+        "the empty hand goes away",
+        "it stands",
+    ];
+    assert_eq!(said, steps);
+    assert!(world.carryings.windows(2).all(|pair| pair[0].progress <= pair[1].progress && !pair[0].over));
+    let last = world.carryings.last().expect("it was told");
+    assert_eq!((last.over, last.outcome, last.progress), (true, PlaceObjectResult::DONE, 1.0));
+    assert_eq!((last.object_id.as_str(), last.revision), ("target", 3));
 }
