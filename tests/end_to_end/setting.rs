@@ -2,6 +2,7 @@
 
 use crate::recorded::Recorded;
 use crate::suite::{Process, Turn, apprentice, fresh_domain, fresh_folder, now, run};
+use apprentice_msgs::geometry_msgs::PoseStamped;
 use apprentice_msgs::msg::{PlacementQuery, TableScene};
 use rustix::process::{Signal, kill_process};
 use serde_json::Value;
@@ -22,6 +23,15 @@ const TEA: &str = "/**/setting:
     target_shapes: [cylinder, cylinder]
     target_sizes_m: [0.14, 0.14, 0.01, 0.07, 0.07, 0.08]
     target_homes: [table centre, pot]
+/**/simulated_table:
+  ros__parameters:
+    target_position_m: [1.1, 0.1]
+    gripper_joint: finger_left
+    start_positions: [0.0, -0.6, 2.2, 0.0, 1.54, 0.0, 0.05]
+/**/placement_planner:
+  ros__parameters:
+    gripper_joint: finger_left
+    pick: true
 /**/demonstrator:
   ros__parameters:
     noise: none
@@ -121,7 +131,17 @@ fn a_table_is_set_one_thing_after_another_and_an_interrupted_setting_goes_on() {
     assert_eq!(serde_json::json!([at.x, at.y]), saucer["placement_m"]);
     assert!(f64::hypot(at.x - 0.5, at.y - 0.5) < 0.2, "the saucer belongs in the middle: {at:?}");
     assert!(recorded.distinct::<PlacementQuery>("query").iter().all(|query| query.scene.objects.len() == 2));
-    for lesson in ["1-saucer/bag", "2-cup/bag"] {
+    for (lesson, file) in [("1-saucer/bag", "1-saucer.json"), ("2-cup/bag", "2-cup.json")] {
+        // The robot took it from beside the table, and there it stands now.
+        let ended = summary(&session, file);
+        assert_eq!(ended["placed"], serde_json::json!(true), "{ended}");
+        let recorded = Recorded::read(&session.join(lesson)).expect("the bag opens");
+        let poses = recorded.distinct::<PoseStamped>("target_pose");
+        let place = |n: usize| ended["placement_m"][n].as_f64().expect("a place");
+        let (first, last) = (poses.first().expect("it is seen"), poses.last().expect("it is seen"));
+        assert_eq!((first.pose.position.x, first.pose.position.y), (1.1, 0.1));
+        let at = &last.pose.position;
+        assert!(f64::hypot(at.x - place(0), at.y - place(1)) < 0.005, "{at:?}: {ended}");
         let output = run(&["replay", "--verify", &session.join(lesson).to_string_lossy()]);
         let words = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
         assert!(output.status.success() && words.contains("equal bit for bit"), "{lesson}: {words}");

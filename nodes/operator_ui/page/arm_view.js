@@ -17,7 +17,7 @@ const clamp = (v, low, high) => Math.min(high, Math.max(low, v));
 export class ArmView {
   constructor(canvas) {
     this.canvas = canvas;
-    this.view = { scene: null, arm: null, pose: null, replayed: false, way: null, target: null, spots: [], dark: false };
+    this.view = { scene: null, arm: null, pose: null, replayed: false, way: null, tray: null, target: null, spots: [], dark: false };
     this.camera = { ...HOME };
     this.pointers = new Map();
     this.labels = document.createElement("div");
@@ -153,6 +153,7 @@ export class ArmView {
     gl.uniformMatrix4fv(this.uniform.view, false, this.camera.matrix);
     const c = this.colours(), { scene } = view;
     this.put(this.unit.box, [scene.width_m / 2, scene.depth_m / 2, -SLAB_M / 2, 0, 0, 0, 1], [scene.width_m, scene.depth_m, SLAB_M], c.wood, 1);
+    if (view.tray) this.tray(view.tray, c.wood);
     scene.objects.forEach((object, i) => this.object(object, 0, c.hues[i % 6].map((v, k) => 0.55 * v + 0.45 * c.object[k]), 1));
     for (const spot of view.spots) this.put(this.unit.cylinder, [spot.x_m, spot.y_m, 0.002, 0, 0, 0, 1], [0.016, 0.016, 0.004], { chosen: c.good, spare: c.accent }[spot.kind] ?? c.bad, 1, 0.3);
     if (this.way) this.put(this.way, STILL, [1, 1, 1], c.accent, 1, 0.4);
@@ -165,6 +166,14 @@ export class ArmView {
     gl.disable(gl.CULL_FACE);
     gl.depthMask(true);
     this.write(width / ratio, height / ratio);
+  }
+
+  /** What the target waits on, when that is not the table. */
+  tray({ pick: [x, y, z], target }, colour) {
+    const { width_m, depth_m } = this.view.scene;
+    if (!target || (x >= 0 && x <= width_m && y >= 0 && y <= depth_m)) return;
+    const radius = 0.8 * Math.hypot(target.size_x_m, target.size_y_m);
+    this.put(this.unit.cylinder, [x, y, z - SLAB_M / 4, 0, 0, 0, 1], [radius, radius, SLAB_M / 2], colour, 1);
   }
 
   /** Meshes of this arm, and the tube of this way. */

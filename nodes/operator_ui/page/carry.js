@@ -77,7 +77,7 @@ export class Carry {
     // While the person looks at the plan, the arm as it is would only be in the way.
     const replay = moves && this.seconds !== null ? posesAt(motion, this.seconds) : null;
     const target = motion?.target && plan ? { ...motion.target, z_m: motion.target_z_m } : null;
-    this.view.show({ scene, arm, dark, pose: replay ?? pose, replayed: Boolean(replay), way: moves ? motion.way : null, target: target && { ...target, ...this.at(replay) } });
+    this.view.show({ scene, arm, dark, pose: replay ?? pose, replayed: Boolean(replay), way: moves ? motion.way : null, tray: plan && motion?.pick ? motion : null, target: target && { ...target, ...this.at(replay) } });
     const spots = this.spots(), key = JSON.stringify(spots);
     if (key !== this.spotsKey) { this.spotsKey = key; this.view.show({ spots }); }
     $("arm").setAttribute("aria-label", CARRY.picture(scene, plan));
@@ -85,6 +85,7 @@ export class Carry {
     const last = motion.times_s.at(-1);
     $("motion-time").max = last;
     $("motion-time").value = this.seconds ?? 0;
+    $("motion-time").style.setProperty("--share", `${(100 * (this.seconds ?? 0)) / Math.max(1e-3, last)}%`);
     $("motion-time").setAttribute("aria-valuetext", CARRY.time(this.seconds, last));
     $("motion-words").textContent = CARRY.time(this.seconds, last);
     $("motion-play").textContent = this.playing ? CARRY.pause : CARRY.play;

@@ -15,6 +15,8 @@ use scene::{Object, Shape};
 
 /// A larger map is not shown.
 const MAX_MAP_SIDE: u32 = 256;
+/// How long the gripper is taken to need, seconds.
+const GRIP_S: f64 = 1.0;
 /// More candidates are not shown.
 const MAX_CANDIDATES: usize = 50;
 
@@ -98,7 +100,10 @@ pub(crate) fn plan_view(message: &PlacementPlan) -> (PlanView, Option<String>) {
     };
     let placed = outcome != "no_free_place";
     let seconds = |part: &JointTrajectory| part.points.last().map_or(0.0, |point| point.time_from_start.seconds());
-    let motion_s = [&message.approach, &message.trajectory, &message.retreat].map(seconds).iter().sum();
+    // The gripper closes after the first part, if there is one, and opens before the last.
+    let grips = [&message.approach, &message.retreat].into_iter().filter(|part| !part.points.is_empty()).count();
+    let motion_s = [&message.approach, &message.trajectory, &message.retreat].map(seconds).iter().sum::<f64>()
+        + GRIP_S * grips as f64;
     let view = PlanView {
         query_id: message.query_id.clone(),
         revision: message.revision,

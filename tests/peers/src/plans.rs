@@ -5,8 +5,12 @@ use crate::clock::timed;
 use crate::clutter::{Problem, problem};
 use crate::error::PeersError;
 use arm::{Exclusions, Robot};
-use placement::{MotionSettings, PlacementPlan, PlanOutcome, Planner, TablePose, placement_optima};
+use placement::{
+    ClosingAxis, Gripper, MotionSettings, PlacementPlan, PlanOutcome, Planner, Source, Stand, TablePose, Trajectory,
+    placement_optima,
+};
 use robot_files::read_text;
+use scene::Point;
 use serde::Serialize;
 
 const N_SCENES: usize = 200;
@@ -24,12 +28,17 @@ pub(crate) struct Bench {
     pub table: Option<TablePose>,
     pub size_m: [f64; 2],
     pub home: Vec<(String, f64)>,
+    /// What picks the target up, and where it stands: beside the table.
+    gripper: Gripper,
+    stand: Stand,
 }
 
 /// Figures of one arm, CPU milliseconds.
 #[derive(Debug, Serialize)]
 pub struct Measured {
     robot: &'static str,
+    /// Whether the target is picked up, and let go of; else it is in the hand and stays there.
+    picks: bool,
     /// Scenes that a long search solves, and those drawn to get them.
     solvable: usize,
     drawn: usize,
@@ -52,9 +61,11 @@ pub struct Measured {
 pub fn measure(seed: u64) -> Result<Vec<Measured>, PeersError> {
     let mut all = Vec::new();
     for bench in [panda()?, own()?] {
-        let measured = one(&bench, seed)?;
-        print(&measured);
-        all.push(measured);
+        for picks in [false, true] {
+            let measured = one(&bench, picks, seed)?;
+            print(&measured);
+            all.push(measured);
+        }
     }
     Ok(all)
 }
@@ -74,7 +85,9 @@ pub(crate) fn panda() -> Result<Bench, PeersError> {
     // Its x axis points over the table, whose own x axis points to the right.
     let table = Some(TablePose { position_m: [0.2, 0.4, 0.0], yaw_rad: -std::f64::consts::FRAC_PI_2 });
     let exclusions = Some(exclusions);
-    Ok(Bench { name: "Panda", robot, exclusions, tool: PANDA.2, table, size_m: [0.8, 0.6], home })
+    let gripper = gripper("panda_finger_joint1", 0.04, 0.08);
+    let stand = beside(-0.1, 0.2);
+    Ok(Bench { name: "Panda", robot, exclusions, tool: PANDA.2, table, size_m: [0.8, 0.6], home, gripper, stand })
 }
 
 /// Our own arm of seven joints at its table of 1 × 1 m.
@@ -86,14 +99,26 @@ fn own() -> Result<Bench, PeersError> {
     let at = [0.0, -0.5, 0.0, 2.1, 0.0, 1.54, 0.0];
     let joints = names.iter().zip(at).chain([(&"finger_left", 0.04)]);
     let home = joints.map(|(name, at)| ((*name).to_owned(), at)).collect();
-    Ok(Bench { name: "table_arm_7", robot, exclusions: None, tool: "tool0", table: None, size_m: [1.0, 1.0], home })
+    let gripper = gripper("finger_left", 0.075, 0.154);
+    let (tool, table, stand) = ("tool0", None, beside(1.1, 0.15));
+    Ok(Bench { name: "table_arm_7", robot, exclusions: None, tool, table, size_m: [1.0, 1.0], home, gripper, stand })
+}
+
+fn gripper(joint: &str, open: f64, opening_m: f64) -> Gripper {
+    Gripper { joint: joint.to_owned(), closed: 0.0, open, opening_m, axis: ClosingAxis::Y }
+}
+
+fn beside(x: f64, y: f64) -> Stand {
+    Stand { at_m: Point::new(x, y), base_m: 0.0, yaw_rad: 0.0 }
 }
 
 impl Bench {
-    fn planner(&self, samples: Option<usize>, seed: u64) -> Result<Planner, PeersError> {
+    fn planner(&self, picks: bool, samples: Option<usize>, seed: u64) -> Result<Planner, PeersError> {
         let defaults = MotionSettings::default();
         let samples = samples.unwrap_or(defaults.samples);
-        let settings = MotionSettings { tool_link: self.tool.into(), table: self.table, samples, seed, ..defaults };
+        let gripper = picks.then(|| self.gripper.clone());
+        let settings =
+            MotionSettings { tool_link: self.tool.into(), table: self.table, gripper, samples, seed, ..defaults };
         let mut planner = Planner::new(settings);
         planner.set_arm(self.robot.clone(), self.exclusions.as_ref()).map_err(robot_error)?;
         Ok(planner)
@@ -104,19 +129,23 @@ impl Bench {
     }
 }
 
-fn one(bench: &Bench, seed: u64) -> Result<Measured, PeersError> {
-    let mut quick = bench.planner(None, 1)?;
-    let mut long = (0..LONG_SEEDS).map(|i| bench.planner(Some(LONG_SEARCH), 100 + i)).collect::<Result<Vec<_>, _>>()?;
+fn one(bench: &Bench, picks: bool, seed: u64) -> Result<Measured, PeersError> {
+    let mut quick = bench.planner(picks, None, 1)?;
+    let mut long =
+        (0..LONG_SEEDS).map(|i| bench.planner(picks, Some(LONG_SEARCH), 100 + i)).collect::<Result<Vec<_>, _>>()?;
     let (mut times, mut optimum, mut success) = (Vec::new(), Vec::new(), 0);
     let (mut path, mut motion_s, mut unsolved) = (0.0, 0.0, Vec::new());
-    let (_, first_s) = timed(|| plan(&mut quick, &bench.problem(seed, u64::MAX, N_DRAWS), &bench.home));
+    let source = if picks { Source::Stands(bench.stand) } else { Source::Hand };
+    let (_, first_s) = timed(|| plan(&mut quick, &bench.problem(seed, u64::MAX, N_DRAWS), &bench.home, &source));
     let (mut solvable, mut n) = (0, 0);
     while solvable < N_SCENES && n < 4 * N_SCENES as u64 {
         let problem = bench.problem(seed, n, N_DRAWS);
         n += 1;
-        let (found, took) = timed(|| plan(&mut quick, &problem, &bench.home));
+        let (found, took) = timed(|| plan(&mut quick, &problem, &bench.home, &source));
         let planned = found.outcome == PlanOutcome::Planned;
-        if !planned && !long.iter_mut().any(|long| plan(long, &problem, &bench.home).outcome == PlanOutcome::Planned) {
+        if !planned
+            && !long.iter_mut().any(|long| plan(long, &problem, &bench.home, &source).outcome == PlanOutcome::Planned)
+        {
             continue;
         }
         solvable += 1;
@@ -126,7 +155,7 @@ fn one(bench: &Bench, seed: u64) -> Result<Measured, PeersError> {
         if planned {
             success += 1;
             path += length(&found);
-            motion_s += found.trajectory.points.last().map_or(0.0, |point| point.time_from_start_s);
+            motion_s += parts(&found).map(Trajectory::seconds).iter().sum::<f64>();
         } else {
             unsolved.push(format!("{}: {}", problem.scene.id, found.reason));
         }
@@ -137,6 +166,7 @@ fn one(bench: &Bench, seed: u64) -> Result<Measured, PeersError> {
     let mean = |sum: f64| sum / f64::from(u32::try_from(success.max(1)).unwrap_or(1));
     Ok(Measured {
         robot: bench.name,
+        picks,
         solvable,
         drawn: n as usize,
         success,
@@ -152,8 +182,12 @@ fn one(bench: &Bench, seed: u64) -> Result<Measured, PeersError> {
     })
 }
 
-fn plan(planner: &mut Planner, problem: &Problem, home: &[(String, f64)]) -> PlacementPlan {
-    planner.plan(&problem.scene, &problem.batch(), 0.95, home)
+fn plan(planner: &mut Planner, problem: &Problem, home: &[(String, f64)], source: &Source) -> PlacementPlan {
+    planner.plan_from(&problem.scene, &problem.batch(), 0.95, home, source)
+}
+
+fn parts(plan: &PlacementPlan) -> [&Trajectory; 3] {
+    [&plan.approach, &plan.trajectory, &plan.retreat]
 }
 
 /// Euclidean, over all joints of the arm.
@@ -162,14 +196,15 @@ fn length(plan: &PlacementPlan) -> f64 {
         let squared: f64 = pair[0].positions.iter().zip(&pair[1].positions).map(|(a, b)| (a - b) * (a - b)).sum();
         squared.sqrt()
     };
-    plan.trajectory.points.windows(2).map(step).sum()
+    parts(plan).iter().flat_map(|part| part.points.windows(2)).map(step).sum()
 }
 
 fn print(m: &Measured) {
     println!(
-        "{}: {} of {} solvable scenes planned ({:.1} %; {} drawn); CPU ms p50 {:.1}, p95 {:.1}, worst {:.1}; the first plan \
+        "{}, {}: {} of {} solvable scenes planned ({:.1} %; {} drawn); CPU ms p50 {:.1}, p95 {:.1}, worst {:.1}; the first plan \
          at a table {:.0}; optimum under {N_DRAWS} draws p50 {:.1}, worst {:.1}; way {:.2} rad, motion {:.2} s",
         m.robot,
+        if m.picks { "picked up, carried, let go" } else { "in the hand" },
         m.success,
         m.solvable,
         100.0 * m.success as f64 / m.solvable.max(1) as f64,
