@@ -223,3 +223,29 @@ fn what_cannot_be_picked_up_leaves_the_places_standing() {
     assert_eq!(plan.outcome, PlanOutcome::CannotPick, "{}", plan.reason);
     assert!(plan.reason.contains("would touch"), "{}", plan.reason);
 }
+
+#[test]
+fn the_hand_goes_over_a_tall_thing_and_not_through_it() {
+    let mut check = Check::new(0.05);
+    let joints: Vec<f64> = home().iter().map(|(_, at)| *at).collect();
+    let tool = check.tool(&joints[..6]).translation.vector;
+    // So tall and so near that the straight way to over it would push it away.
+    let shape = Shape::Cylinder { radius_m: 0.03, height_m: tool.z + 0.12 };
+    let scene = Scene { target: Object { shape, ..object("vase", 0.0, 0.0) }, ..flowers() };
+    let stand = Stand { at_m: Point::new(tool.x + 0.17, tool.y), base_m: 0.0, yaw_rad: 0.0 };
+    let plan = planned(&scene, &Source::Stands(stand));
+    assert_eq!(plan.outcome, PlanOutcome::Planned, "{}", plan.reason);
+    check.finger = plan.grip.unwrap()[0];
+    let mut world = around(&scene);
+    let root_from_solid = upright(stand.at_m.x, stand.at_m.y, 0.0, &scene.target, 0.0);
+    world.add(Obstacle { name: "vase".into(), solid: solid(&scene.target), root_from_solid });
+    let points = &plan.approach.points;
+    let above = |positions: &[f64]| {
+        let at = check.tool(positions).translation.vector;
+        (at.x - stand.at_m.x).hypot(at.y - stand.at_m.y) < 2e-3
+    };
+    let down = points.iter().position(|point| above(&point.positions)).unwrap();
+    let over = Trajectory { points: points[..=down].to_vec(), ..plan.approach.clone() };
+    assert!(down > 5 && down + 5 < points.len());
+    assert_eq!(check.touches(&over, &world, |_, _| false), [], "before the hand comes down on it");
+}
