@@ -9,7 +9,7 @@ use rand_chacha::rand_core::SeedableRng;
 use robust::{Objective, Outcome, Problem, Settings, performance};
 use serde::Serialize;
 
-use crate::clock::timed;
+use crate::clock::{timed, timed_by_the_wall};
 use crate::error::PeersError;
 use crate::highs::{self, Form, Report};
 use crate::memory;
@@ -97,10 +97,10 @@ pub struct Compared {
     target: f64,
     /// Most memory while ours was at work, MiB above what this program had before.
     memory_mib: f64,
-    /// CPU seconds of a frontier of 21 λ, the problem included.
-    frontier_seconds: Option<f64>,
-    /// That over the CPU seconds of λ = 0, and over the mean of the 21 when each is solved alone.
-    frontier_ratio: Option<[f64; 2]>,
+    /// Seconds of a frontier of 21 λ, the problem included: of the CPU, and by the wall on two threads.
+    frontier_seconds: Option<[f64; 2]>,
+    /// By the wall over λ = 0 alone; CPU seconds over those of λ = 0, and over the mean of the 21 when each is solved alone.
+    frontier_ratio: Option<[f64; 3]>,
     highs: Vec<Against>,
 }
 
@@ -117,10 +117,10 @@ struct Against {
 }
 
 /// Compares on every problem and prints a table.
-pub fn compare(seed: u64) -> Result<Vec<Compared>, PeersError> {
+pub fn compare(seed: u64, with_highs: bool) -> Result<Vec<Compared>, PeersError> {
     let mut all = vec![];
     for case in &CASES {
-        let compared = case.compare(seed)?;
+        let compared = case.compare(seed, with_highs)?;
         print(&compared);
         all.push(compared);
     }
@@ -154,7 +154,7 @@ impl Case {
         }
     }
 
-    fn compare(&self, seed: u64) -> Result<Compared, PeersError> {
+    fn compare(&self, seed: u64, with_highs: bool) -> Result<Compared, PeersError> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mdp = self.mdp(&mut rng)?;
         // A posterior about as wide as the weights are large.
@@ -182,12 +182,13 @@ impl Case {
 
         let (mut frontier_seconds, mut frontier_ratio) = (None, None);
         if self.frontier {
-            let [of_frontier, ratio, to_mean] = self.frontier(&make()?, problem_seconds, &settings)?;
-            frontier_seconds = Some(of_frontier);
-            frontier_ratio = Some([ratio, to_mean]);
+            let on_two = Problem::new(&mdp, &draws, None, objective, 2)?;
+            let (seconds, ratio) = self.frontier(&on_two, problem_seconds, &settings)?;
+            frontier_seconds = Some(seconds);
+            frontier_ratio = Some(ratio);
         }
         let mut against = vec![];
-        if !self.forms.is_empty() {
+        if with_highs && !self.forms.is_empty() {
             // b of the draws: what ψ of a policy without any features falls short of 0.
             let offsets: Vec<f64> = performance(&mdp, &draws, objective, &[0.0; N_FEATURES], 1)?;
             let offsets: Vec<f64> = offsets.iter().map(|value| -value).collect();
@@ -226,26 +227,37 @@ impl Case {
         })
     }
 
-    /// CPU seconds of a frontier with its problem, and these over λ = 0 alone and over the mean λ alone.
-    fn frontier(&self, problem: &Problem<'_>, making: f64, settings: &Settings) -> Result<[f64; 3], PeersError> {
+    /// Seconds of a frontier with its problem, of the CPU and by the wall; and the ratios that are told of it.
+    fn frontier(
+        &self,
+        problem: &Problem<'_>,
+        making: f64,
+        settings: &Settings,
+    ) -> Result<([f64; 2], [f64; 3]), PeersError> {
         let lambdas: Vec<f64> = (0..POINTS).map(|i| i as f64 / (POINTS - 1) as f64).collect();
         let mut alone = [0.0; POINTS];
-        let mut together = vec![];
+        let mut first_by_wall = 0.0;
+        let mut together = [0.0; 2];
+        let share = 1.0 / self.repeats as f64;
         for _ in 0..self.repeats {
-            for (sum, &lambda) in alone.iter_mut().zip(&lambdas) {
-                let (solution, seconds) = timed(|| problem.solve(ALPHA, lambda, settings));
+            for (i, (sum, &lambda)) in alone.iter_mut().zip(&lambdas).enumerate() {
+                let ((solution, seconds), by_wall) =
+                    timed_by_the_wall(|| timed(|| problem.solve(ALPHA, lambda, settings)));
                 solution?;
-                *sum += seconds / self.repeats as f64;
+                *sum += share * seconds;
+                first_by_wall += if i == 0 { share * by_wall } else { 0.0 };
             }
-            let (frontier, seconds) = timed(|| problem.frontier(ALPHA, &lambdas, settings));
+            let ((frontier, seconds), by_wall) =
+                timed_by_the_wall(|| timed(|| problem.frontier(ALPHA, &lambdas, settings)));
             if let Some(point) = frontier?.iter().find(|point| point.outcome != Outcome::Optimal) {
                 println!("λ = {}: {}", point.lambda, point.outcome.name());
             }
-            together.push(seconds);
+            together[0] += share * seconds;
+            together[1] += share * by_wall;
         }
-        let together = together.iter().sum::<f64>() / together.len() as f64 + making;
+        let [cpu, wall] = together.map(|seconds| seconds + making);
         let mean = alone.iter().sum::<f64>() / POINTS as f64 + making;
-        Ok([together, together / (alone[0] + making), together / mean])
+        Ok(([cpu, wall], [wall / (first_by_wall + making), cpu / (alone[0] + making), cpu / mean]))
     }
 }
 
@@ -267,9 +279,10 @@ fn print(compared: &Compared) {
         compared.memory_mib,
         compared.optimum
     );
-    if let (Some(seconds), Some([first, mean])) = (compared.frontier_seconds, compared.frontier_ratio) {
+    if let (Some([cpu, wall]), Some([by_wall, first, mean])) = (compared.frontier_seconds, compared.frontier_ratio) {
         println!(
-            "  frontier of {POINTS}   {seconds:>10.4} CPU-s, {first:.1} times λ = 0 alone, {mean:.1} times the mean λ alone"
+            "  frontier of {POINTS}   {wall:>10.4} s on two threads, {by_wall:.1} times λ = 0 alone; {cpu:.4} CPU-s, {first:.1} times \
+             λ = 0 alone, {mean:.1} times the mean λ alone"
         );
     }
     for against in &compared.highs {

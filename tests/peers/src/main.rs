@@ -66,7 +66,11 @@ enum What {
     /// How long a bound from 10,000 draws takes.
     Bound,
     /// Robust policies: ours and SciPy's HiGHS (set up by tests/peers/setup) on the same linear programs.
-    Broil,
+    Broil {
+        /// Leave HiGHS out, which takes minutes for the largest
+        #[arg(long)]
+        ours: bool,
+    },
 }
 
 fn main() -> ExitCode {
@@ -93,7 +97,7 @@ fn run(arguments: &Arguments) -> Result<(), PeersError> {
         What::Plans => serde_json::to_value(plans::measure(seed)?),
         What::Ompl => serde_json::to_value(ompl::compare(seconds, seed)?),
         What::Bound => serde_json::to_value(bound::measure(seconds, seed)?),
-        What::Broil => serde_json::to_value(broil::compare(seed)?),
+        What::Broil { ours } => serde_json::to_value(broil::compare(seed, !ours)?),
     }
     .map_err(|source| PeersError::Json { what: "the figures", source })?;
     match &arguments.json {

@@ -1,6 +1,10 @@
 //! The problem (dissertation section 7.2): a process, an uncertain reward, and what policies are judged by.
 
 use std::collections::VecDeque;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::thread::ScopedJoinHandle;
 
 use mdp::{Mdp, Policy, feature_counts};
 
@@ -19,6 +23,8 @@ use crate::value::Value;
 
 /// Most λ of one frontier.
 pub const MAX_POINTS: usize = 10_000;
+/// How many λ of a frontier are solved before it is parted between them: the first that are not more than half of it.
+const SHARED: [usize; 2] = [5, 3];
 
 /// A checked problem, to be solved for any α and λ.
 #[derive(Debug, Clone)]
@@ -31,8 +37,25 @@ pub struct Problem<'a> {
     /// The optimal policy for the mean reward, and what no policy's expected return exceeds.
     mean: (f64, Plan),
     uniform_rest: bool,
+    threads: usize,
     /// Typical size of returns.
     unit: f64,
+}
+
+/// Part of a frontier, with all that was learned for it.
+struct Span<'b> {
+    levels: &'b [Level],
+    columns: Columns<'b>,
+    direct: Option<Direct<'b>>,
+    /// Places in `levels`, in the order in which they were solved.
+    found: Vec<(usize, Solution)>,
+}
+
+impl Span<'_> {
+    /// The same, to go on with elsewhere; what [`Direct`] keeps is found anew where it is needed.
+    fn fork(&self) -> Self {
+        Self { levels: self.levels, columns: self.columns.clone(), direct: None, found: self.found.clone() }
+    }
 }
 
 /// The risk of some policy.
@@ -50,8 +73,8 @@ pub struct Risk {
 
 impl<'a> Problem<'a> {
     /// The problem of `mdp` under posterior `draws` of the reward weights (N × k, row by row), with `weights` as their
-    /// probabilities if they are not all 1/N. `threads` serve [`Objective::Loss`] alone, which plans under every draw; the
-    /// answer is the same for any number of them.
+    /// probabilities if they are not all 1/N. `threads` serve [`Objective::Loss`], which plans under every draw, and frontiers,
+    /// whose parts are found at once; the answer is the same for any number of them.
     ///
     /// # Errors
     /// No draws, rows of the wrong length, numbers that are not finite; weights that are negative or do not sum to 1 within
@@ -70,7 +93,7 @@ impl<'a> Problem<'a> {
         let mut planner = Planner::new(mdp, &scenarios, step);
         let mean = planner.plan_for_mean()?;
         let unit = scenarios.size(&mean.1.counts).max(step);
-        Ok(Self { mdp, scenarios, reachable, planner, mean, uniform_rest: false, unit })
+        Ok(Self { mdp, scenarios, reachable, planner, mean, uniform_rest: false, threads, unit })
     }
 
     /// The same problem, but policies take every action equally often in states that they never visit.
@@ -115,20 +138,68 @@ impl<'a> Problem<'a> {
             return Err(RobustError::Size { what: "number of lambdas", got: lambdas.len(), most: MAX_POINTS });
         }
         let levels: Vec<Level> = lambdas.iter().map(|&lambda| Level::new(alpha, lambda)).collect::<Result<_, _>>()?;
-        let mut columns = Columns::new(self.mdp, &self.scenarios, self.planner.clone(), self.mean.clone(), self.unit);
-        let mut direct: Option<Direct<'_>> = None;
-        let mut solutions: Vec<Option<Solution>> = vec![None; levels.len()];
-        for index in from_the_ends(lambdas) {
-            let level = levels[index];
-            let upper_bound = chord(level.lambda, solutions.iter().flatten());
-            let candidate = self.candidate(level, upper_bound, settings, &mut columns, &mut direct)?;
+        let order = from_the_ends(lambdas);
+        let columns = Columns::new(self.mdp, &self.scenarios, self.planner.clone(), self.mean.clone(), self.unit);
+        let first = Span { levels: &levels, columns, direct: None, found: Vec::new() };
+        // A few all over the frontier first: what lies between two of them is then found on its own, whether at the same time
+        // or not.
+        let n_shared = SHARED.iter().copied().find(|n| 2 * n <= order.len()).unwrap_or(order.len());
+        let (shared, rest) = order.split_at(n_shared);
+        let first = self.span(first, shared, settings, watch)?;
+        let mut solutions = first.found.clone();
+        let between = between(lambdas, shared, rest);
+        let n_threads = self.threads.min(between.len());
+        if n_threads > 1 {
+            let (tell, told) = channel();
+            let next = AtomicUsize::new(0);
+            let work = |tell: Sender<Solution>| {
+                let mut found = Vec::new();
+                while let Some(indices) = between.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    // Whoever listens outlives this.
+                    let mut tell = |solution: &Solution| drop(tell.send(solution.clone()));
+                    found.extend(self.span(first.fork(), indices, settings, &mut tell)?.found.split_off(n_shared));
+                }
+                Ok::<_, RobustError>(found)
+            };
+            let found = std::thread::scope(|scope| {
+                let workers: Vec<_> =
+                    (0..n_threads).map(|_| tell.clone()).map(|tell| scope.spawn(|| work(tell))).collect();
+                drop(tell);
+                told.iter().for_each(|solution| watch(&solution));
+                let join = |worker: ScopedJoinHandle<'_, _>| worker.join().unwrap_or_else(|panic| resume_unwind(panic));
+                workers.into_iter().map(join).collect::<Vec<_>>()
+            });
+            for part in found {
+                solutions.extend(part?);
+            }
+        } else {
+            for indices in &between {
+                solutions.extend(self.span(first.fork(), indices, settings, watch)?.found.split_off(n_shared));
+            }
+        }
+        solutions.sort_by_key(|(index, _)| *index);
+        Ok(solutions.into_iter().map(|(_, solution)| solution).collect())
+    }
+
+    /// Solves some more of the levels of a frontier, each with what was learned from those before it.
+    fn span<'b>(
+        &'b self,
+        mut span: Span<'b>,
+        indices: &[usize],
+        settings: &Settings,
+        watch: &mut dyn FnMut(&Solution),
+    ) -> Result<Span<'b>, RobustError> {
+        for &index in indices {
+            let level = span.levels[index];
+            let upper_bound = chord(level.lambda, span.found.iter().map(|(_, solution)| solution));
+            let candidate = self.candidate(level, upper_bound, settings, &mut span.columns, &mut span.direct)?;
             let (otherwise, unit) = ((!self.uniform_rest).then_some(&self.mean.1.actions[..]), self.unit);
             let solution =
                 Solution::new(self.mdp, &self.scenarios, level, candidate, otherwise, unit, settings.tolerance);
             watch(&solution);
-            solutions[index] = Some(solution);
+            span.found.push((index, solution));
         }
-        Ok(solutions.into_iter().flatten().collect())
+        Ok(span)
     }
 
     fn candidate<'b>(
@@ -235,6 +306,17 @@ fn from_the_ends(lambdas: &[f64]) -> Vec<usize> {
         }
     }
     order
+}
+
+/// The places `rest`, in their order, parted by the λ of those that are `shared`; parts of nothing are left out.
+fn between(lambdas: &[f64], shared: &[usize], rest: &[usize]) -> Vec<Vec<usize>> {
+    let mut parts = vec![Vec::new(); shared.len() + 1];
+    for &index in rest {
+        let n_below = shared.iter().filter(|&&known| lambdas[known] < lambdas[index]).count();
+        parts[n_below].push(index);
+    }
+    parts.retain(|part| !part.is_empty());
+    parts
 }
 
 /// What no objective exceeds at λ, from the bounds at its neighbours on both sides: the optimum is convex in λ, being the

@@ -121,6 +121,31 @@ fn answers_are_the_same_bits_every_time() {
 }
 
 #[test]
+fn a_frontier_has_the_same_bits_on_any_number_of_threads_and_every_point_is_told_once() {
+    let case = medium(23).case();
+    // Out of order, and one of them twice.
+    let lambdas: Vec<f64> = (0..21).map(|i| f64::from(i * 8 % 21) / 20.0).chain([0.4]).collect();
+    let ask = |threads, settings: &Settings| {
+        let problem = Problem::new(&case.mdp, &case.draws, None, Objective::Robust, threads).unwrap();
+        let mut told = vec![];
+        let mut watch = |solution: &Solution| told.push(solution.lambda);
+        let frontier = problem.frontier_watched(0.95, &lambdas, settings, &mut watch).unwrap();
+        told.sort_by(f64::total_cmp);
+        (frontier, told)
+    };
+    let mut ascending = lambdas.clone();
+    ascending.sort_by(f64::total_cmp);
+    for settings in [COLUMNS, DIRECT] {
+        let (once, told) = ask(1, &settings);
+        assert_eq!(told, ascending);
+        assert!(once.iter().zip(&lambdas).all(|(solution, lambda)| solution.lambda == *lambda));
+        for threads in [2, 3, 8] {
+            assert_eq!(ask(threads, &settings), (once.clone(), ascending.clone()), "{threads} threads");
+        }
+    }
+}
+
+#[test]
 fn limits_end_in_an_outcome_with_bounds_that_hold() {
     let case = medium(25).case();
     let problem = Problem::new(&case.mdp, &case.draws, None, Objective::Robust, 1).unwrap();
