@@ -28,6 +28,8 @@ enum Manner {
     Deaf,
     /// It takes a goal, fails and says nothing of stalling.
     Fails,
+    /// It says that it stalled at once, and has not moved: something is stuck.
+    Stuck,
 }
 
 /// The planner, the world, and what the planner said.
@@ -153,7 +155,9 @@ impl World {
             Some(Manner::Refuses) => false,
             Some(_) => true,
         };
-        if accepted {
+        if accepted && self.manner == Some(Manner::Stuck) && self.grips == 2 {
+            self.gripping = Some((self.now_ns + 100_000_000, goal_id, to));
+        } else if accepted {
             let point = JointTrajectoryPoint {
                 positions: vec![to],
                 time_from_start: Duration::from_seconds(0.5),
@@ -446,4 +450,18 @@ fn what_the_arm_does_is_told_to_everybody() {
     let last = world.carryings.last().expect("it was told");
     assert_eq!((last.over, last.outcome, last.progress), (true, PlaceObjectResult::DONE, 1.0));
     assert_eq!((last.object_id.as_str(), last.revision), ("target", 3));
+}
+
+#[test]
+fn fingers_that_do_not_close_hold_nothing() {
+    let settings = Settings { gripper_controller: "/gripper/gripper_cmd".into(), ..settings() };
+    let mut world = World::new(settings, &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+    world.manner = Some(Manner::Stuck);
+    let start = world.joints();
+    let result = world.place();
+    assert_eq!(result.outcome, PlaceObjectResult::GRASP_FAILED, "{}", result.reason);
+    assert_eq!(result.reason, "the gripper did not close; the hand goes back");
+    let end = world.joints();
+    assert!(start.iter().zip(&end).take(6).all(|(a, b)| (a - b).abs() < 1e-3), "the arm is back: {start:?} {end:?}");
+    assert!(near(world.at(), [TRAY_M[0], TRAY_M[1], 0.0], 1e-9), "it stands where it stood");
 }

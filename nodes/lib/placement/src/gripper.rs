@@ -13,6 +13,9 @@ const SQUEEZE_M: f64 = 0.006;
 /// Fingers that came as near as this to where they were told to go hold nothing, metres between them.
 const NOTHING_M: f64 = 0.002;
 
+/// A thing may be wider than it is known to be by this, metres; fingers that stay farther apart have not closed.
+const LARGER_M: f64 = 0.006;
+
 /// The axis of the tool link along which the fingers close.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ClosingAxis {
@@ -95,10 +98,28 @@ impl Gripper {
         self.position(grasp.width_m - SQUEEZE_M)
     }
 
-    /// Whether fingers that were told to close to `told` and rest `at` have something between them.
-    pub fn has_something(&self, told: f64, at: f64) -> bool {
-        self.apart_m(at) - self.apart_m(told) > NOTHING_M
+    /// What fingers have between them that were told to close to `told` and rest `at`.
+    pub fn found(&self, told: f64, at: f64) -> Found {
+        let farther_m = self.apart_m(at) - self.apart_m(told);
+        if farther_m <= NOTHING_M {
+            Found::Nothing
+        } else if farther_m < SQUEEZE_M + LARGER_M {
+            Found::Something
+        } else {
+            Found::StillOpen
+        }
     }
+}
+
+/// What closing fingers came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Found {
+    /// They are where they were told to go: nothing is between them.
+    Nothing,
+    /// Something about as wide as the thing keeps them apart.
+    Something,
+    /// They are farther apart than it would keep them: they have not closed.
+    StillOpen,
 }
 
 impl Grasp {
@@ -117,7 +138,7 @@ impl Grasp {
 
 #[cfg(test)]
 mod tests {
-    use super::{ClosingAxis, Gripper};
+    use super::{ClosingAxis, Found, Gripper};
     use scene::Shape;
     use std::f64::consts::FRAC_PI_2;
 
@@ -147,7 +168,9 @@ mod tests {
         let (wide, told) = (gripper.let_in(&grasp), gripper.hold(&grasp));
         // 6 of 10 cm open, 3.4 of 10 cm closed; 0.7 is closed.
         assert!((wide - 0.28).abs() < 1e-12 && (told - 0.7 * 0.66).abs() < 1e-12);
-        assert!(gripper.has_something(told, 0.7 * 0.6), "4 cm between them");
-        assert!(!gripper.has_something(told, told) && !gripper.has_something(told, told - 0.01));
+        assert_eq!(gripper.found(told, 0.7 * 0.6), Found::Something, "4 cm between them");
+        assert_eq!(gripper.found(told, told), Found::Nothing);
+        assert_eq!(gripper.found(told, told + 0.05), Found::Nothing, "farther than told");
+        assert_eq!(gripper.found(told, wide), Found::StillOpen, "they never moved");
     }
 }

@@ -21,7 +21,7 @@ mod trajectory;
 
 pub use candidate::{Candidate, Verdict};
 pub use choice::{Choice, NEAR_M};
-pub use gripper::{ClosingAxis, Grasp, Gripper};
+pub use gripper::{ClosingAxis, Found, Grasp, Gripper};
 pub use losses::{LossBatch, SceneLosses, placement_losses, placement_optima};
 pub use manipulator::{Manipulator, ManipulatorError, TABLE_THICKNESS_M, resting_height_m};
 pub use picking::{Source, Stand};

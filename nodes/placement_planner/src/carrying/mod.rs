@@ -22,6 +22,7 @@ use apprentice_msgs::trajectory_msgs::JointTrajectory;
 use bus::{ActionEvent, End, GoalId};
 use controllers::News;
 use motion::{Motion, Phase, far_joint};
+use placement::Found;
 use sha2::{Digest, Sha256};
 use steps::Act;
 
@@ -248,6 +249,7 @@ impl Carrier {
         let is_watched = self.is_watched();
         let Some(motion) = &mut self.motion else { return Vec::new() };
         if !is_watched {
+            motion.seen = now;
             return self.look(now, joints);
         }
         let limb = motion.limb();
@@ -318,7 +320,8 @@ impl Carrier {
                 };
                 let near = NEAR_GRIP * (gripper.open - gripper.closed).abs();
                 let stands = motion.finger.replace(at).is_some_and(|before| (before - at).abs() < 0.1 * near);
-                match stands && (holds || (at - to).abs() < near) {
+                let has_closed = || gripper.found(to, at) != Found::StillOpen;
+                match stands && (if holds { has_closed() || is_late } else { (at - to).abs() < near }) {
                     true => self.step_done(now, Some(at)),
                     false if is_late => self.fail(&format!("the gripper is at {at:.4} instead of {to:.4}")),
                     false => Vec::new(),
@@ -333,10 +336,14 @@ impl Carrier {
         let Some(motion) = &mut self.motion else { return Vec::new() };
         match (&motion.step().act, motion.step().stage) {
             (&Act::Grip { to, holds: true }, _) => {
-                let has_something = |fingers: &Fingers| finger.is_some_and(|at| fingers.gripper.has_something(to, at));
-                if !self.fingers.as_ref().is_some_and(has_something) {
+                let found = self.fingers.as_ref().zip(finger).map(|(fingers, at)| fingers.gripper.found(to, at));
+                if found != Some(Found::Something) {
                     let label = &motion.plan.scene.target.label;
-                    let reason = format!("the gripper closed and '{label}' was not in it; the hand goes back");
+                    let what = match found {
+                        Some(Found::Nothing) => format!("closed and '{label}' was not in it"),
+                        _ => "did not close".to_owned(),
+                    };
+                    let reason = format!("the gripper {what}; the hand goes back");
                     motion.ends = Some((PlaceObjectResult::GRASP_FAILED, reason));
                     (motion.steps, motion.at) = (steps::of_giving_up(&motion.plan), 0);
                     return self.begin(now);

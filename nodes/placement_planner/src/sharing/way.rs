@@ -37,14 +37,14 @@ impl Way {
         if !way.add(arm, plan, &plan.trajectory, &start, plan.grip) {
             return Self::default();
         }
-        let tools = way.moments[first..].iter().map(|(_, links)| links[arm.tool_link()]);
+        let mut tools = way.moments[first..].iter().map(|(_, links)| links[arm.tool_link()]);
         way.points_m = tools.clone().map(|tool| tool.translation.vector.into()).collect();
         let turn_rad = exchange::scene_from_message(&plan.scene).map_or(0.0, |scene| arm.turn_in_hand_rad(&scene));
         let heading = |tool: Isometry3<f64>| {
             let x_axis = tool.rotation * arm::Vector3::x();
             x_axis.y.atan2(x_axis.x) - turn_rad
         };
-        way.heading_rad = tools.last().map(heading);
+        way.heading_rad = tools.next_back().map(heading);
         way.held_s[1] = if plan.retreat.points.is_empty() { way.end_s() } else { way.pause() };
         way.add(arm, plan, &plan.retreat, &start, plan.grip_open);
         way
