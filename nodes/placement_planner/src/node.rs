@@ -223,6 +223,10 @@ impl PlacementPlanner {
                     return Vec::new();
                 }
                 self.sharing.scene_changed(self.scene.as_deref(), &scene);
+                // Where one thing stands says nothing of another.
+                if self.scene.as_ref().is_some_and(|known| known.target.id != scene.target.id) {
+                    self.target = None;
+                }
                 self.scene = Some(scene);
                 self.plan = None;
             }
