@@ -465,3 +465,48 @@ fn fingers_that_do_not_close_hold_nothing() {
     assert!(start.iter().zip(&end).take(6).all(|(a, b)| (a - b).abs() < 1e-3), "the arm is back: {start:?} {end:?}");
     assert!(near(world.at(), [TRAY_M[0], TRAY_M[1], 0.0], 1e-9), "it stands where it stood");
 }
+
+#[test]
+fn it_can_be_called_off_at_every_stage_and_asked_for_again() {
+    for (i, stage) in ALL_STAGES.into_iter().enumerate() {
+        for with_controller in [false, true] {
+            let gripper_controller = if with_controller { "/gripper/gripper_cmd".to_owned() } else { String::new() };
+            let settings = Settings { gripper_controller, ..settings() };
+            let mut world = World::new(settings, &table(&[0.08, 0.08, 0.2], "cylinder", &TRAY_M));
+            world.manner = with_controller.then_some(Manner::AllowsStalling);
+            world.look();
+            world.ask(1);
+            world.until("the stage is reached", |world| world.stages.contains(&stage));
+            (0..4).for_each(|_| world.pass());
+            world.tell(Event::Place(ActionRequest::Cancel { goal_id: GoalId { uuid: [1; 16] } }));
+            world.until("an end", |world| !world.results.is_empty());
+            let result = world.results.remove(0);
+            assert_eq!(result.outcome, PlaceObjectResult::CANCELED, "stage {i}: {}", result.reason);
+            // It stands still, and where the target is does not change any more.
+            let (arm, at) = (world.joints(), world.at());
+            (0..10).for_each(|_| world.pass());
+            assert!(arm.iter().zip(world.joints()).all(|(a, b)| (a - b).abs() < 1e-9), "stage {i}: the arm moves");
+            assert!(near(at, world.at(), 1e-9), "stage {i}: the target moves");
+            world.stages.clear();
+            let mut result = world.place();
+            if stage == PlaceObjectFeedback::RELEASING && result.outcome == PlaceObjectResult::SCENE_CHANGED {
+                // It was still in the fingers: they opened, and it fell by the few millimetres to the table.
+                assert!(result.reason.contains("was moved before the hand was there"), "{}", result.reason);
+                result = world.place();
+            }
+            match stage {
+                // The hand is about a thing that it does not hold, or no longer: nobody knows what moving it would do.
+                PlaceObjectFeedback::GRASPING | PlaceObjectFeedback::RELEASING
+                    if result.outcome == PlaceObjectResult::START_IN_COLLISION =>
+                {
+                    assert!(result.reason.contains("move it away by hand"), "stage {i}: {}", result.reason);
+                }
+                _ => {
+                    assert_eq!(result.outcome, PlaceObjectResult::DONE, "stage {i}: {}", result.reason);
+                    let want = [result.placement.x, result.placement.y, 0.0];
+                    assert!(near(world.at(), want, 1e-3), "stage {i}: {:?} {want:?}", world.at());
+                }
+            }
+        }
+    }
+}

@@ -35,9 +35,6 @@ pub enum MissingInput {
         /// Of the posterior.
         posterior: usize,
     },
-    /// Nothing to compare with.
-    #[error("no policy, because regret is measured against demonstrated actions, and none are in force")]
-    NoDemonstration,
     /// Pairs of states and actions that say nothing of a return.
     #[error(
         "no policy, because regret is measured against demonstrations that follow a path, and '{id}' does not: no action \
@@ -91,13 +88,10 @@ impl Halves {
     }
 }
 
-/// What the demonstrations collect, k numbers; none for objectives that do not ask.
+/// What the demonstrations collect, k numbers; none for objectives that do not ask, and where nothing was demonstrated.
 pub(crate) fn expert(settings: &Settings, inputs: &Inputs<'_>) -> Result<Option<Vec<f64>>, MissingInput> {
-    if settings.objective != Objective::Regret {
+    if settings.objective != Objective::Regret || inputs.demonstrations.is_empty() {
         return Ok(None);
-    }
-    if inputs.demonstrations.is_empty() {
-        return Err(MissingInput::NoDemonstration);
     }
     let paths = inputs.demonstrations.iter().map(|shown| path(shown, inputs.world)).collect::<Result<Vec<_>, _>>()?;
     Ok(Some(expert_feature_counts(&inputs.world.mdp, &paths, inputs.world.mdp.gamma())?))

@@ -79,8 +79,8 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "objective",
-            about: "what a policy is judged by: its return (robust), its return above the demonstrations' (regret), or what it \
-                    loses against the best policy for each reward (evd)",
+            about: "what a policy is judged by: its return (robust), its return above the demonstrations' (regret; by its \
+                    return until there is one), or what it loses against the best policy for each reward (evd)",
             range: Range::Choice(&["robust", "regret", "evd"]),
         },
         ParameterSpec {

@@ -12,6 +12,8 @@ use exchange::{ROBUST_POLICY, robust_set_id};
 use mdp::Policy;
 use robust::{Bootstrap, OutOfSample, Problem, Solution, optimal_policy, out_of_sample, performance};
 
+/// Said of a policy that [`by_return`] judges.
+const BY_RETURN: &str = "; by its return, for nothing was shown that regret could be measured against";
 /// Bootstrap replicates of the interval.
 const REPLICATES: usize = 1000;
 /// A frontier's policies are sent when they are no more numbers than this.
@@ -30,6 +32,11 @@ pub struct Policies {
 
 /// The robust policy of a posterior under a preference; none: the λ of the settings.
 pub fn policy(settings: &Settings, inputs: &Inputs<'_>, preference: Option<&RiskPreference>) -> Policies {
+    if let Some(settings) = by_return(settings, inputs) {
+        let mut found = policy(&settings, inputs, preference);
+        found.policy.reason += BY_RETURN;
+        return found;
+    }
     let lambda = preference.map_or(settings.lambda, |preference| preference.lambda);
     let bare = RobustPolicy {
         lambda,
@@ -51,8 +58,20 @@ pub fn policy(settings: &Settings, inputs: &Inputs<'_>, preference: Option<&Risk
     }
 }
 
+/// Settings that judge a policy by its return, where regret has nothing yet to be measured against: the first question comes from some
+/// policy, and what answers it may be the first demonstration.
+fn by_return(settings: &Settings, inputs: &Inputs<'_>) -> Option<Settings> {
+    let is_alone = settings.objective == Objective::Regret && inputs.demonstrations.is_empty();
+    is_alone.then(|| Settings { objective: Objective::Robust, ..settings.clone() })
+}
+
 /// What every λ buys under a posterior.
 pub fn frontier(settings: &Settings, inputs: &Inputs<'_>) -> PolicyFrontier {
+    if let Some(settings) = by_return(settings, inputs) {
+        let mut found = frontier(&settings, inputs);
+        found.reason += BY_RETURN;
+        return found;
+    }
     let posterior = inputs.posterior;
     let mut message = PolicyFrontier {
         header: posterior.header.clone(),

@@ -252,10 +252,20 @@ fn regret_is_measured_against_the_paths_in_force() {
             < 1e-9
     );
     assert_eq!(found.feature_counts.len(), k);
+    // Nothing was shown yet: judged by its return, so that there is a policy, a bound on it, and a first question.
     let nothing = with(&[]);
-    assert_eq!(nothing.outcome, RobustPolicy::NOT_COMPUTED);
+    let robust = policy(&SETTINGS(), &inputs(&posterior, &world), None).policy;
+    assert_eq!((nothing.outcome, nothing.objective), (RobustPolicy::OPTIMAL, RobustPolicy::ROBUST));
+    assert_eq!(nothing.action_probabilities, robust.action_probabilities);
+    assert_eq!(
+        nothing.reason,
+        format!("{}; by its return, for nothing was shown that regret could be measured against", robust.reason)
+    );
     assert!(
-        nothing.reason.contains("none are in force") && nothing.gap.is_nan() && nothing.action_probabilities.is_empty()
+        frontier(&settings, &inputs(&posterior, &world))
+            .points
+            .iter()
+            .all(|point| point.outcome == RobustPolicy::OPTIMAL)
     );
     let jump = with(&[&demonstration("jump", &[(0, 3), (5, 1)])]);
     assert!(jump.reason.contains("'jump' does not: no action leads from state 0 to state 5"), "{}", jump.reason);

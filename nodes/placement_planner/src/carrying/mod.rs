@@ -378,6 +378,10 @@ impl Carrier {
 
     fn end(&mut self, outcome: u8, reason: &str) -> Vec<Deed> {
         let Some(motion) = self.motion.take() else { return Vec::new() };
+        if motion.step().stage == PlaceObjectFeedback::RELEASING {
+            // The fingers may have let go, or not: where it is seen tells.
+            self.held = None;
+        }
         let result = result_of(&motion.plan, outcome, reason);
         let progress = if outcome == PlaceObjectResult::DONE { 1.0 } else { motion.progress(0.0) };
         let news = motion.news(motion.seen);
