@@ -5,7 +5,7 @@ use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{LessonStatus, PlacementPlan, PlacementQuery, Posterior, TableScene};
 use apprentice_msgs::sensor_msgs::JointState;
 use exchange::scene_to_message;
-use placement_planner::{Event, Output, PlacementPlanner, Settings};
+use placement_planner::{Deed, Event, Output, PlacementPlanner, Settings};
 use scene::{Object, Point, Rbf, Scene, Shape};
 
 pub const URDF: &str = include_str!("../../../../config/urdf/table_arm.urdf");
@@ -73,7 +73,8 @@ pub fn step(node: &mut PlacementPlanner, event: Event) -> Vec<Output> {
     let mut outputs = node.step(Time::default(), event);
     outputs.retain(|output| {
         let is_shown = matches!(output, Output::PlanningScene(_) | Output::Transforms(_) | Output::Markers(_));
-        !is_shown && !matches!(output, Output::ArmModel(_) | Output::ArmPose(_) | Output::ArmMotion(_))
+        let is_told = matches!(output, Output::Deed(Deed::Tell(_)));
+        !(is_shown || is_told || matches!(output, Output::ArmModel(_) | Output::ArmPose(_) | Output::ArmMotion(_)))
     });
     outputs
 }
