@@ -5,6 +5,7 @@ mod bad_evidence;
 mod evidence;
 mod graph;
 mod graph_file;
+mod hand;
 mod log_lines;
 mod malformed;
 mod moved;
