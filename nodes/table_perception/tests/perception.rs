@@ -237,6 +237,14 @@ fn vase(score: f64, x: f64, y: f64, yaw_rad: f64) -> Detection3D {
     detection("target", score, pose)
 }
 
+/// A tracker sees the middle of the thing to place at (x, y, z) in the table's frame, upright.
+fn tracked([x, y, z]: [f64; 3]) -> Event {
+    let header = Header { frame_id: "table".into(), ..Header::default() };
+    let orientation = Quaternion { w: 1.0, ..Quaternion::default() };
+    let pose = Pose { position: Point { x, y, z }, orientation };
+    Event::TargetPose(Box::new(PoseStamped { header, pose }))
+}
+
 #[test]
 fn where_the_thing_to_place_stands_is_told_on_the_table_and_beside_it() {
     let mut bench = Bench::ready();
@@ -276,12 +284,53 @@ fn a_class_that_things_on_the_table_have_too_is_theirs() {
     bench.step(0.0, camera());
     assert!(bench.step(1.0, all()).is_some() && bench.target.is_none());
     // A tracker of its own tells it apart.
-    let header = Header { frame_id: "table".into(), ..Header::default() };
-    let pose = Pose {
-        position: Point { x: 0.1, y: 0.2, z: 0.1 },
-        orientation: Quaternion { w: 1.0, ..Quaternion::default() },
-    };
-    bench.step(1.5, Event::TargetPose(Box::new(PoseStamped { header, pose })));
+    bench.step(1.5, tracked([0.1, 0.2, 0.1]));
     let told = bench.target.expect("it is tracked").pose.position;
     assert!(near((told.x, told.y), (0.1, 0.2)) && told.z.abs() < 1e-12);
+}
+
+#[test]
+fn the_thing_to_place_is_near_up_to_two_metres_from_the_table() {
+    let mut bench = Bench::ready();
+    for (at, is_near) in [
+        ([-1.99, 0.5, 0.1], true),
+        ([-2.01, 0.5, 0.1], false),
+        ([2.99, 0.5, 0.1], true),
+        ([3.01, 0.5, 0.1], false),
+        ([0.5, -1.99, 0.1], true),
+        ([0.5, -2.01, 0.1], false),
+        ([0.5, 2.99, 0.1], true),
+        ([0.5, 3.01, 0.1], false),
+        ([0.5, 0.5, 1.99], true),
+        ([0.5, 0.5, 2.01], false),
+        ([1.2, 0.5, -1.99], true),
+        ([1.2, 0.5, -2.01], false),
+    ] {
+        bench.step(2.0, tracked(at));
+        let told = bench.target.take().map(|told| told.pose.position);
+        assert_eq!(told.is_some(), is_near, "{at:?}");
+        assert!(told.is_none_or(|base| (base.z - (at[2] - 0.1)).abs() < 1e-9), "{at:?}");
+    }
+    for at in [[f64::NAN, 0.5, 0.1], [0.5, f64::INFINITY, 0.1], [0.5, 0.5, f64::NEG_INFINITY]] {
+        bench.step(2.1, tracked(at));
+        assert!(bench.target.is_none() && bench.status.contains("not finite"), "{at:?} {}", bench.status);
+    }
+}
+
+#[test]
+fn the_thing_to_place_is_no_thing_that_the_scene_waits_for_or_misses() {
+    let boxed = Settings { target_shape: "box".into(), target_size_m: vec![0.1, 0.2, 0.3], ..settings() };
+    let mut bench = Bench { node: TablePerceptionNode::new(boxed).expect("lists that fit"), ..Bench::new() };
+    assert!(bench.step(0.0, tracked([0.5, 0.5, 0.5])).is_none(), "the first scene waits for the others");
+    // 30 cm high, on something 35 cm above the table.
+    let told = bench.target.take().expect("it waits for nothing").pose.position;
+    assert!((told.z - 0.35).abs() < 1e-9, "{told:?}");
+    assert_eq!(bench.status, "not seen: cup_left, cup_right, tray");
+    bench.step(0.1, camera());
+    let scene = bench.step(1.0, all()).expect("everything else is seen");
+    assert_eq!((scene.objects.len(), bench.status.as_str()), (3, "all 3 things are seen"));
+    // Where it is, and whether it is, changes nothing about the others.
+    assert!(bench.step(2.0, tracked([0.2, 0.2, 0.5])).is_none());
+    assert!(bench.step(50.0, all()).is_none() && bench.target.take().is_some_and(|told| told.pose.position.x == 0.2));
+    assert_eq!(bench.status, "all 3 things are seen");
 }
