@@ -7,7 +7,6 @@ use apprentice_msgs::control_msgs::GripperCommandResult;
 use apprentice_msgs::geometry_msgs::PoseStamped;
 use apprentice_msgs::msg::{Carrying, LessonStatus, PlacementPlan, Posterior, TableScene};
 use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
-
 use bus::{ActionEvent, ActionRequest, GoalId};
 use placement_planner::{Deed, Event, Heard, Output, PlacementPlanner, Settings};
 use scene::Rbf;

@@ -60,11 +60,6 @@ fn what_is_too_wide_or_out_of_reach_is_left_alone_with_the_reason() {
     let result = world.place();
     assert_eq!(result.outcome, PlaceObjectResult::CANNOT_PICK);
     assert!(result.reason.contains("out of the arm's reach"), "{}", result.reason);
-    // Next to the cup there is no room for fingers.
-    let mut world = World::new(settings(), &table(&[0.08, 0.08, 0.07], "cylinder", &[0.2, 0.345]));
-    let result = world.place();
-    assert!([PlaceObjectResult::DONE, PlaceObjectResult::CANNOT_PICK].contains(&result.outcome), "{}", result.reason);
-    assert_eq!(world.results, []);
 }
 
 #[test]
@@ -231,24 +226,15 @@ fn it_can_be_called_off_at_every_stage_and_asked_for_again() {
             assert!(near(at, world.at(), 1e-9), "stage {i}: the target moves");
             world.stages.clear();
             let mut result = world.place();
-            if stage == PlaceObjectFeedback::RELEASING && result.outcome == PlaceObjectResult::SCENE_CHANGED {
-                // It was still in the fingers: they opened, and it fell by the few millimetres to the table.
+            if stage == PlaceObjectFeedback::RELEASING && !with_controller {
+                // The fingers had stopped half-way with it: they opened, and it fell by the few millimetres to the table.
+                assert_eq!(result.outcome, PlaceObjectResult::SCENE_CHANGED, "{}", result.reason);
                 assert!(result.reason.contains("was moved before the hand was there"), "{}", result.reason);
                 result = world.place();
             }
-            match stage {
-                // The hand is about a thing that it does not hold, or no longer: nobody knows what moving it would do.
-                PlaceObjectFeedback::GRASPING | PlaceObjectFeedback::RELEASING
-                    if result.outcome == PlaceObjectResult::START_IN_COLLISION =>
-                {
-                    assert!(result.reason.contains("move it away by hand"), "stage {i}: {}", result.reason);
-                }
-                _ => {
-                    assert_eq!(result.outcome, PlaceObjectResult::DONE, "stage {i}: {}", result.reason);
-                    let want = [result.placement.x, result.placement.y, 0.0];
-                    assert!(near(world.at(), want, 1e-3), "stage {i}: {:?} {want:?}", world.at());
-                }
-            }
+            assert_eq!(result.outcome, PlaceObjectResult::DONE, "stage {i}: {}", result.reason);
+            let want = [result.placement.x, result.placement.y, 0.0];
+            assert!(near(world.at(), want, 1e-3), "stage {i}: {:?} {want:?}", world.at());
         }
     }
 }

@@ -7,7 +7,7 @@ use apprentice_msgs::msg::{
     Carrying, EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementPlan,
     PlacementQuery, QueryResponse, TableScene,
 };
-use apprentice_msgs::trajectory_msgs::JointTrajectory;
+use exchange::motion_seconds;
 
 /// Cells of the bar that shows a bound.
 const BAR: usize = 24;
@@ -145,8 +145,7 @@ impl Story {
             return Some((Kind::Plan, format!("    no way to place the {target}: {}", short(&plan.reason))));
         }
         let at = &plan.robust_placement;
-        let seconds = |part: &JointTrajectory| part.points.last().map_or(0.0, |point| point.time_from_start.seconds());
-        let all_s: f64 = [&plan.approach, &plan.trajectory, &plan.retreat].map(seconds).iter().sum();
+        let all_s = motion_seconds(plan);
         Some((Kind::Plan, format!("    the {target} goes to ({:.2}, {:.2}) m; the arm needs {all_s:.1} s", at.x, at.y)))
     }
 

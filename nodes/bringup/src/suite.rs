@@ -95,8 +95,8 @@ struct Suite {
     page: Option<String>,
     awaits_page: bool,
     over_at: Option<Duration>,
-    /// What that waits for.
-    placing: Option<Option<Placing>>,
+    /// How far the robot was with its plan when that was set.
+    placing: Option<Placing>,
     outcome: Option<Outcome>,
     /// Why the lesson did not end by itself.
     why: Option<String>,
@@ -297,11 +297,12 @@ impl Suite {
                 self.over_at = Some(now + PLAN_GRACE);
             }
             if self.ledger.has_final_plan() {
-                let placing = Some(self.ledger.placing()).filter(|_| self.plan.settings.until_placed);
+                // Without `until_placed` nobody waits for the arm.
+                let placing = if self.plan.settings.until_placed { self.ledger.placing() } else { Placing::Over };
                 let wait = match placing {
-                    Some(Placing::NotBegun) => MOVE_GRACE,
-                    Some(Placing::UnderWay) => MOVE_LIMIT,
-                    None | Some(Placing::NotPlanned | Placing::Over) => LAST_WORDS,
+                    Placing::NotBegun => MOVE_GRACE,
+                    Placing::UnderWay => MOVE_LIMIT,
+                    Placing::NotPlanned | Placing::Over => LAST_WORDS,
                 };
                 // What is waited for changes; the time for it runs from then on.
                 if self.placing.replace(placing) != Some(placing) {

@@ -2,7 +2,7 @@
 
 use crate::{Ledger, SessionRecord};
 use apprentice_msgs::action::PlaceObjectResult;
-use apprentice_msgs::msg::{LessonStatus, RobustPolicy};
+use apprentice_msgs::msg::{LessonStatus, PlacementPlan, RobustPolicy};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -38,7 +38,8 @@ pub struct Summary {
     pub policy: Option<PolicySummary>,
     /// Where the robot would put the target, from above: x, y.
     pub placement_m: Option<[f64; 2]>,
-    /// Whether it put the target there; null: it did not try, or is at it.
+    /// Whether it put the target there, false also where it is taught and finds no way to; null: it did not try, is at it, or
+    /// there is no robot.
     pub placed: Option<bool>,
     /// How that ended, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -142,6 +143,13 @@ impl Summary {
         let lesson = ledger.lesson.as_ref();
         let finite = |value: f64| value.is_finite().then_some(value);
         let carried = ledger.carrying.as_ref().filter(|carrying| carrying.over);
+        let carried =
+            carried.map(|carrying| (carrying.outcome == PlaceObjectResult::DONE, carrying.description.clone()));
+        let hopeless = |plan: &&PlacementPlan| {
+            plan.inside_bound && ![PlacementPlan::PLANNED, PlacementPlan::NO_ROBOT].contains(&plan.outcome)
+        };
+        let hopeless = || ledger.plan.as_ref().filter(hopeless).map(|plan| (false, plan.reason.clone()));
+        let (placed, placed_reason) = carried.or_else(hopeless).unzip();
         let about_world = ledger.policy.is_some();
         let state = lesson.map_or(LessonStatus::ASKING, |lesson| lesson.state);
         let own_reason = lesson.map_or("no question was asked", |lesson| lesson.reason.as_str());
@@ -173,8 +181,8 @@ impl Summary {
                 reason: policy.reason.clone(),
             }),
             placement_m: ledger.plan.as_ref().map(|plan| [plan.robust_placement.x, plan.robust_placement.y]),
-            placed: carried.map(|carrying| carrying.outcome == PlaceObjectResult::DONE),
-            placed_reason: carried.map(|carrying| carrying.description.clone()),
+            placed,
+            placed_reason,
             wall_time_s: now.as_secs_f64(),
             start_to_first_question_s: ledger.first_question.map(|at| at.as_secs_f64()),
             answer_to_next_question_ms: Percentiles::of(&ledger.latencies_ms()),

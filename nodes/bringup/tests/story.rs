@@ -1,13 +1,14 @@
 //! Claims about what is told of a lesson, and what is counted.
 
+use apprentice_msgs::action::PlaceObjectResult;
 use apprentice_msgs::builtin_interfaces::Duration as TimeFromStart;
 use apprentice_msgs::geometry_msgs::Point;
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceReceipt, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound,
+    Carrying, EvidenceLog, EvidenceReceipt, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound,
     PlacementDemonstration, PlacementPlan, PlacementQuery, QueryResponse, Retraction, SceneObject, TableScene,
 };
 use apprentice_msgs::trajectory_msgs::JointTrajectoryPoint;
-use bringup::{Circumstances, Kind, Ledger, NodeCount, Percentiles, SessionRecord, Story, Summary, Topic};
+use bringup::{Circumstances, Kind, Ledger, NodeCount, Percentiles, Placing, SessionRecord, Story, Summary, Topic};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -281,6 +282,53 @@ fn the_summary_says_what_happened_and_null_for_what_did_not() {
     ledger.note(seconds(10), &Topic::Lesson(lesson(13, LessonStatus::ASKING, f64::NAN)));
     let without = Summary::new(&circumstances(), &ledger, BTreeMap::new(), seconds(10), None);
     assert_eq!(without.last_bound_m, None);
+}
+
+#[test]
+fn what_the_arm_does_is_told_once_a_step_and_how_it_ended() {
+    let mut story = Story::default();
+    story.tell(&Topic::Scene(table()));
+    let mut told = |revision: u64, over: bool, outcome: u8, words: &str| {
+        let placement = Point { x: 0.5, y: 0.52, z: 0.0 };
+        let description = words.to_owned();
+        let carrying = Carrying { revision, over, outcome, description, placement, ..Carrying::default() };
+        texts(story.tell(&Topic::Carrying(Box::new(carrying))))
+    };
+    assert_eq!(told(12, false, 0, "the gripper closes"), ["the gripper closes"]);
+    assert!(told(12, false, 0, "the gripper closes").is_empty(), "said again");
+    assert_eq!(told(12, true, PlaceObjectResult::DONE, "it stands"), ["the vase stands at (0.50, 0.52) m"]);
+    assert_eq!(told(13, false, 0, "the gripper closes"), ["the gripper closes"], "of the next plan");
+    let failed = told(13, true, PlaceObjectResult::GRASP_FAILED, "the gripper did not close");
+    assert_eq!(failed, ["the vase was not put there: the gripper did not close"]);
+}
+
+#[test]
+fn the_summary_says_whether_the_thing_was_put_there() {
+    let summary = |plan: PlacementPlan, carrying: Option<Carrying>| {
+        let mut ledger = Ledger::default();
+        ledger.note(seconds(1), &Topic::Lesson(lesson(12, LessonStatus::TAUGHT, 0.09)));
+        ledger.note(seconds(2), &Topic::Plan(Box::new(plan)));
+        let carrying = carrying.map(Box::new);
+        carrying.into_iter().for_each(|carrying| ledger.note(seconds(3), &Topic::Carrying(carrying)));
+        let summary = Summary::new(&circumstances(), &ledger, BTreeMap::new(), seconds(4), None);
+        (ledger.placing(), summary.placed, summary.placed_reason)
+    };
+    let told = |over: bool, outcome: u8, words: &str| {
+        let description = words.to_owned();
+        Some(Carrying { revision: 12, over, outcome, description, ..Carrying::default() })
+    };
+    assert_eq!(summary(plan(12), None), (Placing::NotBegun, None, None));
+    let moving = told(false, 0, "the gripper closes");
+    assert_eq!(summary(plan(12), moving), (Placing::UnderWay, None, None));
+    let stands = told(true, PlaceObjectResult::DONE, "it stands");
+    assert_eq!(summary(plan(12), stands), (Placing::Over, Some(true), Some("it stands".into())));
+    let failed = told(true, PlaceObjectResult::GRASP_FAILED, "nothing was there");
+    assert_eq!(summary(plan(12), failed), (Placing::Over, Some(false), Some("nothing was there".into())));
+    // Taught, and yet there is no way: that is no success. Without a robot nobody was to put it anywhere.
+    let refused = |outcome: u8| PlacementPlan { outcome, reason: "no way".into(), ..plan(12) };
+    let no_way = (Placing::NotPlanned, Some(false), Some("no way".into()));
+    assert_eq!(summary(refused(PlacementPlan::CANNOT_PICK), None), no_way);
+    assert_eq!(summary(refused(PlacementPlan::NO_ROBOT), None), (Placing::NotPlanned, None, None));
 }
 
 #[test]

@@ -9,14 +9,11 @@ use apprentice_msgs::msg::{
     LessonStatus, PerformanceBounds, PlacementBound, PlacementCandidate, PlacementPlan, PlacementQuery, Posterior,
     TableScene,
 };
-use apprentice_msgs::trajectory_msgs::JointTrajectory;
-use exchange::{ExchangeError, scene_from_message};
+use exchange::{ExchangeError, motion_seconds, scene_from_message};
 use scene::{Object, Shape};
 
 /// A larger map is not shown.
 const MAX_MAP_SIDE: u32 = 256;
-/// How long the gripper is taken to need, seconds.
-const GRIP_S: f64 = 1.0;
 /// More candidates are not shown.
 const MAX_CANDIDATES: usize = 50;
 
@@ -99,11 +96,6 @@ pub(crate) fn plan_view(message: &PlacementPlan) -> (PlanView, Option<String>) {
         _ => "unknown",
     };
     let placed = outcome != "no_free_place";
-    let seconds = |part: &JointTrajectory| part.points.last().map_or(0.0, |point| point.time_from_start.seconds());
-    // The gripper closes after the first part, if there is one, and opens before the last.
-    let grips = [&message.approach, &message.retreat].into_iter().filter(|part| !part.points.is_empty()).count();
-    let motion_s = [&message.approach, &message.trajectory, &message.retreat].map(seconds).iter().sum::<f64>()
-        + GRIP_S * grips as f64;
     let view = PlanView {
         query_id: message.query_id.clone(),
         revision: message.revision,
@@ -116,7 +108,7 @@ pub(crate) fn plan_view(message: &PlacementPlan) -> (PlanView, Option<String>) {
         robust_cvar_m: finite(message.robust_cvar_m),
         alpha: finite(message.alpha),
         inside_bound: message.inside_bound,
-        motion_s,
+        motion_s: motion_seconds(message),
         candidates: message.candidates.iter().take(MAX_CANDIDATES).filter_map(candidate_view).collect(),
         map_side: if good { side } else { 0 },
         reward_map: if good {

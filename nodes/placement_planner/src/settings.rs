@@ -2,7 +2,7 @@
 
 use crate::carrying::Fingers;
 use bus::{NodeSettings, ParameterSpec, Range};
-use placement::{ClosingAxis, Gripper, MotionSettings, TablePose};
+use placement::{Gripper, MotionSettings, TablePose};
 use serde::{Deserialize, Serialize};
 
 /// Parameters of `placement_planner`.
@@ -255,9 +255,7 @@ impl NodeSettings for Settings {
         if self.gripper_joint.is_empty() && (self.pick || !self.gripper_controller.is_empty()) {
             return Err("picking something up takes a gripper: name its joint in gripper_joint".into());
         }
-        if (self.gripper_open - self.gripper_closed).abs() < 1e-6 {
-            return Err("gripper_open and gripper_closed are the same position".into());
-        }
+        self.gripper().map_or(Ok(()), |gripper| gripper.check())?;
         match self.table_position_m.len() {
             0 | 3 => Ok(()),
             got => Err(format!("table_position_m has {got} entries; it must have 3 (x, y, z), or none")),
@@ -294,7 +292,7 @@ impl Settings {
             closed: self.gripper_closed,
             open: self.gripper_open,
             opening_m: self.gripper_opening_m,
-            axis: if self.gripper_axis == "x" { ClosingAxis::X } else { ClosingAxis::Y },
+            axis: self.gripper_axis.parse().unwrap_or_default(),
         })
     }
 

@@ -6,7 +6,7 @@ use apprentice_msgs::action::PlaceObjectResult;
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Pose, PoseStamped};
 use apprentice_msgs::msg::{PlacementPlan, SceneObject, TableScene};
-use placement::{Source, Stand};
+use placement::Source;
 
 /// What was seen to move by less has not moved, metres and radians.
 const STILL_M: f64 = 0.005;
@@ -77,16 +77,19 @@ impl PlacementPlanner {
 
 /// Whether the target is seen elsewhere than where a plan picks it up.
 fn has_moved(plan: &PlacementPlan, pose: &Pose) -> bool {
-    let is_round = plan.scene.target.shape == SceneObject::SHAPE_CYLINDER;
-    match (convert::source(Some(&plan.pick)), convert::source(Some(pose))) {
-        (Source::Stands(a), Source::Stands(b)) => is_elsewhere(&a, &b, is_round),
+    is_elsewhere(&plan.scene.target, &plan.pick, pose)
+}
+
+/// Whether a thing stands elsewhere at one pose than at the other; how something round is turned says nothing.
+pub(crate) fn is_elsewhere(object: &SceneObject, a: &Pose, b: &Pose) -> bool {
+    let is_round = object.shape == SceneObject::SHAPE_CYLINDER;
+    match (convert::source(Some(a)), convert::source(Some(b))) {
+        (Source::Stands(a), Source::Stands(b)) => {
+            let by_m = a.at_m.distance(b.at_m).max((a.base_m - b.base_m).abs());
+            let turn = a.yaw_rad - b.yaw_rad;
+            by_m > STILL_M || (!is_round && libm::atan2(turn.sin(), turn.cos()).abs() > STILL_RAD)
+        }
         (Source::Unknown, Source::Unknown) => false,
         _ => true,
     }
-}
-
-fn is_elsewhere(a: &Stand, b: &Stand, is_round: bool) -> bool {
-    let by_m = a.at_m.distance(b.at_m).max((a.base_m - b.base_m).abs());
-    let turn = a.yaw_rad - b.yaw_rad;
-    by_m > STILL_M || (!is_round && libm::atan2(turn.sin(), turn.cos()).abs() > STILL_RAD)
 }

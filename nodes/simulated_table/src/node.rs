@@ -79,7 +79,6 @@ impl SimulatedTableNode {
     /// When the table or the robot is wrong.
     pub fn new(settings: &Settings, urdf: String) -> Result<Self, TableError> {
         let robot = RobotModel::new(urdf, &settings.start_positions)?;
-        let base = &settings.robot_base_position_m;
         let scene = task_scene(settings)?;
         Ok(Self {
             target: Target::new(settings, &robot, &scene)?,
@@ -87,7 +86,7 @@ impl SimulatedTableNode {
             scene,
             follower: Follower::new(robot.joints.clone(), robot.start.clone()),
             robot,
-            base_m: std::array::from_fn(|i| base.get(i).copied().unwrap_or(0.0)),
+            base_m: settings.robot_base_m(),
             base_yaw_rad: settings.robot_base_yaw_rad,
             announced: None,
             announcements: 0,

@@ -1,6 +1,7 @@
 //! The table as ROS parameters: one list per property, one entry per object.
 
 use bus::{NodeSettings, ParameterSpec, Range};
+use placement::Gripper;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the simulated table.
@@ -210,13 +211,29 @@ impl NodeSettings for Settings {
                 "what stands at target_position_m is picked up by a gripper: name its joint in gripper_joint".into()
             );
         }
-        if (self.gripper_open - self.gripper_closed).abs() < 1e-6 {
-            return Err("gripper_open and gripper_closed are the same position".into());
-        }
+        self.gripper().map_or(Ok(()), |gripper| gripper.check())?;
         match self.robot_base_position_m.len() {
             3 => Ok(()),
             got => Err(format!("robot_base_position_m has {got} entries; it must have 3 (x, y, z)")),
         }
+    }
+}
+
+impl Settings {
+    /// What picks the target up.
+    pub(crate) fn gripper(&self) -> Option<Gripper> {
+        (!self.gripper_joint.is_empty()).then(|| Gripper {
+            joint: self.gripper_joint.clone(),
+            closed: self.gripper_closed,
+            open: self.gripper_open,
+            opening_m: self.gripper_opening_m,
+            axis: self.gripper_axis.parse().unwrap_or_default(),
+        })
+    }
+
+    /// Where the robot's root link is in the table's frame, metres.
+    pub(crate) fn robot_base_m(&self) -> [f64; 3] {
+        std::array::from_fn(|i| self.robot_base_position_m.get(i).copied().unwrap_or(0.0))
     }
 }
 

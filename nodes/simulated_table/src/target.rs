@@ -2,7 +2,7 @@
 
 use crate::{RobotError, RobotModel, Settings};
 use arm::{Isometry3, Robot, Translation3, Vector3, about_z};
-use placement::{ClosingAxis, Gripper, Stand, resting_height_m};
+use placement::{Gripper, Stand, resting_height_m};
 use scene::{Point, Scene, Shape};
 
 /// The tool may be this far outside of what it takes hold of, metres.
@@ -38,24 +38,16 @@ impl Target {
         let model = robot.read()?;
         let missing = |what: &'static str, name: &str| RobotError::Missing { what, name: name.to_owned() };
         let tool = model.link_index(&settings.tool_link).ok_or_else(|| missing("link", &settings.tool_link))?;
-        let joint = &settings.gripper_joint;
-        let finger = robot.joints.iter().position(|known| known.name == *joint);
-        let finger = finger.ok_or_else(|| missing("driven joint", joint))?;
-        let gripper = Gripper {
-            joint: joint.clone(),
-            closed: settings.gripper_closed,
-            open: settings.gripper_open,
-            opening_m: settings.gripper_opening_m,
-            axis: if settings.gripper_axis == "x" { ClosingAxis::X } else { ClosingAxis::Y },
-        };
-        let base = &settings.robot_base_position_m;
-        let [bx, by, bz] = std::array::from_fn(|i| base.get(i).copied().unwrap_or(0.0));
+        let gripper = settings.gripper().ok_or_else(|| missing("gripper joint", ""))?;
+        let finger = robot.joints.iter().position(|known| known.name == gripper.joint);
+        let finger = finger.ok_or_else(|| missing("driven joint", &gripper.joint))?;
+        let [bx, by, bz] = settings.robot_base_m();
         let table_from_root = match robot.root == scene.frame {
             true => Isometry3::identity(),
             false => Isometry3::from_parts(Translation3::new(bx, by, bz), about_z(settings.robot_base_yaw_rad)),
         };
         let at_m = Point::new(x, y);
-        let base_m = if scene.is_on_table(at_m) { resting_height_m(scene, at_m) } else { 0.0 };
+        let base_m = resting_height_m(scene, at_m);
         Ok(Some(Self {
             width_m: gripper.grasp(&scene.target.shape).ok().map(|grasp| grasp.width_m),
             stand: Stand { at_m, base_m, yaw_rad: settings.target_yaw_rad },
@@ -92,8 +84,7 @@ impl Target {
                     Stand { at_m: Point::new(at.x, at.y), base_m: at.z, yaw_rad: libm::atan2(x_axis.y, x_axis.x) };
                 if apart_m > width_m + LETS_GO_M {
                     self.held = None;
-                    let at_m = self.stand.at_m;
-                    self.stand.base_m = if scene.is_on_table(at_m) { resting_height_m(scene, at_m) } else { 0.0 };
+                    self.stand.base_m = resting_height_m(scene, self.stand.at_m);
                 }
             }
             None => {}

@@ -13,8 +13,8 @@ Examples:
 
 A setting is a parameter file with a section /**/setting: what stands on the table, and what is to be placed, in order
 (config/breakfast.yaml is one). Its other sections are for the nodes of every lesson. Each thing is a lesson of its own, with its
-own bag in the folder N-ID; once it is taught or finished, the robot puts the thing where it belongs, in the way of the next.
-With execute: false nothing moves, and the thing is taken to stand where the robot would put it.
+own bag in the folder N-ID; once it is taught, the robot puts the thing where it belongs, in the way of the next.
+Where nothing moves (a lesson that you finish early, execute: false), the thing is taken to stand where the robot would put it.
 
 Exit codes:
   0  everything has its place

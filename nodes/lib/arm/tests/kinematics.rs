@@ -1,7 +1,9 @@
 //! Forward kinematics against poses computed by hand and from DH parameters; the Jacobian against finite differences.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use arm::{Chain, Isometry3, Robot, Vector3, manipulability};
+use arm::{
+    Chain, Goal, IkOutcome, IkSettings, Isometry3, Robot, Translation3, Vector3, about_z, manipulability, solve,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const TABLE_ARM: &str = include_str!("../../../../config/urdf/table_arm.urdf");
@@ -206,4 +208,28 @@ fn manipulability_is_the_textbook_one_and_vanishes_at_singularities() {
     assert!(manipulability(&columns) < 1e-9);
     chain.linearise(&[0.0, 0.5, 1.0, 0.0, 1.0, 0.0, 0.0], &mut columns);
     assert!(manipulability(&columns) > 1e-2);
+}
+
+#[test]
+fn another_point_of_the_tool_moves_with_it() {
+    let robot = Robot::from_urdf(TABLE_ARM).unwrap();
+    let chain = Chain::new(&robot, "tool0").unwrap();
+    let tool_from_point = Isometry3::from_parts(Translation3::new(0.03, -0.12, 0.05), about_z(0.7));
+    let moved = chain.moving_point(&tool_from_point);
+    assert_eq!((moved.tool, &moved.entries), (chain.tool, &chain.entries), "the link and its joints stay");
+    let mut columns = Vec::new();
+    let mut farther = 0;
+    for case in 0..200 {
+        let q: Vec<f64> = (0..7).map(|i| 3.0 * f64::from(case * 7 + i).sin()).collect();
+        let pose = moved.linearise(&q, &mut columns);
+        assert!((pose.to_homogeneous() - (chain.tool_pose(&q) * tool_from_point).to_homogeneous()).norm() < 1e-13);
+        assert!(columns.iter().zip(&moved.levers).all(|(column, &lever)| column.linear.norm() <= lever + 1e-12));
+        farther += columns.iter().zip(&chain.levers).filter(|(column, lever)| column.linear.norm() > **lever).count();
+    }
+    assert!(farther > 0, "the levers of the tool's own origin would not do");
+    // Where the point is of the arm stretched out, the tool's own origin never comes.
+    let stretched = vec![0.0; 7];
+    let goal = Goal::Position(moved.tool_pose(&stretched).translation.vector);
+    let reached = |chain: &Chain| solve(&robot, chain, &goal, &stretched, &IkSettings::default(), |_| true);
+    assert!(matches!(reached(&moved), IkOutcome::Solved(_)) && matches!(reached(&chain), IkOutcome::OutOfReach { .. }));
 }

@@ -2,6 +2,7 @@
 
 mod drawing;
 mod evidence;
+mod motion;
 mod policies;
 mod posterior;
 mod record;
@@ -16,6 +17,7 @@ pub use evidence::{
     Confidence, EvidenceError, MAX_FEATURE, MAX_STEPS, MAX_TRAJECTORIES, Mark, check_history, check_preference,
     confidence_from_message, marks_from_message, steps_from_message,
 };
+pub use motion::{GRIP_S, motion_seconds, trajectory_seconds};
 pub use policies::{Checked, Form, MAX_POLICIES, PolicyError, check_policies};
 pub use posterior::{PosteriorError, check_posterior, is_about_a_table, is_about_scene};
 pub use record::{begins_lesson, in_force, record_header, record_id};

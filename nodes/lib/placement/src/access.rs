@@ -1,6 +1,6 @@
 //! Where in one scene the arm can put the target: the reach map, with the objects in the way.
 
-use crate::manipulator::{Cell, base_height_m};
+use crate::manipulator::{Cell, resting_height_m};
 use crate::reach::ReachMap;
 use scene::{Grid, Point, Scene};
 
@@ -67,9 +67,9 @@ impl<'a> Access<'a> {
         self.solve(at_m, start, 0)
     }
 
-    /// Height of the target's base at a point, metres.
+    /// Height of the target's base when it is released at a point, metres: above what supports it.
     pub fn base_m(&self, at_m: Point) -> f64 {
-        base_height_m(self.scene, at_m, self.cell.manipulator.settings.release_m)
+        resting_height_m(self.scene, at_m) + self.cell.manipulator.settings.release_m
     }
 
     fn solve(&self, at_m: Point, start: &[f64], restarts: usize) -> Option<Vec<f64>> {

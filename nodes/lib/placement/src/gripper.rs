@@ -3,6 +3,7 @@
 use arm::{Isometry3, Translation3, Vector3, about_z};
 use scene::Shape;
 use std::f64::consts::FRAC_PI_2;
+use std::str::FromStr;
 
 /// What is between the fingers of a thing that is wider than they open: its wall, metres. Plates and bowls are taken by the rim.
 const RIM_M: f64 = 0.008;
@@ -10,6 +11,8 @@ const RIM_M: f64 = 0.008;
 const ROOM_M: f64 = 0.01;
 /// Closing fingers are told to go this much beyond the surface of what they hold, metres: they stop there, and press.
 const SQUEEZE_M: f64 = 0.006;
+/// Closed and open are at least this far apart, radians or metres.
+const LEAST_STROKE: f64 = 1e-6;
 /// Fingers that came as near as this to where they were told to go hold nothing, metres between them.
 const NOTHING_M: f64 = 0.002;
 
@@ -52,7 +55,35 @@ pub struct Grasp {
     pub turn_rad: f64,
 }
 
+impl FromStr for ClosingAxis {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "x" => Ok(Self::X),
+            "y" => Ok(Self::Y),
+            _ => Err(format!("the fingers close along '{text}'; x or y is needed")),
+        }
+    }
+}
+
 impl Gripper {
+    /// Whether it is one at all.
+    ///
+    /// # Errors
+    /// In words: it does not open, or by no distance.
+    pub fn check(&self) -> Result<(), String> {
+        let numbers = [self.closed, self.open, self.opening_m];
+        if numbers.iter().all(|x| x.is_finite())
+            && (self.open - self.closed).abs() > LEAST_STROKE
+            && self.opening_m > 0.0
+        {
+            return Ok(());
+        }
+        let (closed, open, opening_m) = (self.closed, self.open, self.opening_m);
+        Err(format!("a gripper that is closed at {closed}, open at {open} and then {opening_m} m wide does not open"))
+    }
+
     /// How a thing is held; its narrower side goes between the fingers, else its rim if it is round.
     ///
     /// # Errors
@@ -159,6 +190,20 @@ mod tests {
         assert!((plate.aside_m - 0.116).abs() < 1e-12 && plate.width_m == 0.008);
         let why = by_y.grasp(&Shape::Box { width_m: 0.3, depth_m: 0.2, height_m: 0.05 }).expect_err("a tray");
         assert_eq!(why, "it is 20.0 cm wide and the gripper opens 10.0 cm");
+    }
+
+    #[test]
+    fn what_does_not_open_is_no_gripper() {
+        assert_eq!(gripper(ClosingAxis::X).check(), Ok(()));
+        for odd in [
+            Gripper { open: 0.7, ..gripper(ClosingAxis::X) },
+            Gripper { opening_m: 0.0, ..gripper(ClosingAxis::X) },
+            Gripper { closed: f64::NAN, ..gripper(ClosingAxis::X) },
+        ] {
+            assert!(odd.check().expect_err("it does not open").contains("does not open"));
+        }
+        assert_eq!("x".parse(), Ok(ClosingAxis::X));
+        assert!("z".parse::<ClosingAxis>().is_err());
     }
 
     #[test]

@@ -303,11 +303,7 @@ fn check_gripper(robot: &Robot, chain: &Chain, gripper: &Gripper) -> Result<(), 
             return Err(format!("{what} at {at:.4} is outside its limits {lower:.4} to {upper:.4}"));
         }
     }
-    let far = (gripper.open - gripper.closed).abs();
-    if !(far > 1e-6 && gripper.opening_m > 0.0) {
-        return Err("it does not open: open and closed are the same, or the opening is nothing".into());
-    }
-    Ok(())
+    gripper.check()
 }
 
 impl Cell<'_> {
@@ -362,14 +358,13 @@ pub(crate) fn solid(object: &Object) -> Solid {
     }
 }
 
-/// Height of the target's base where it stands at a point, metres above the table: on what supports it, if anything does.
-pub fn resting_height_m(scene: &Scene, at_m: Point) -> f64 {
-    base_height_m(scene, at_m, 0.0)
+/// What the target stands on at a point, besides the table.
+pub(crate) fn under(scene: &Scene, at_m: Point) -> impl Iterator<Item = &Object> {
+    let radius_m = scene.target.shape.bounding_radius_m();
+    scene.objects.iter().filter(move |object| object.supports && object.distance_m(at_m) < radius_m)
 }
 
-/// Height of the target's base when it is released at a point, metres: above what supports it, if anything does.
-pub(crate) fn base_height_m(scene: &Scene, at_m: Point, release_m: f64) -> f64 {
-    let radius_m = scene.target.shape.bounding_radius_m();
-    let under = scene.objects.iter().filter(|object| object.supports && object.distance_m(at_m) < radius_m);
-    under.map(|object| object.shape.height_m()).fold(0.0, f64::max) + release_m
+/// Height of the target's base where it stands at a point, metres above the table: on what supports it, if anything does.
+pub fn resting_height_m(scene: &Scene, at_m: Point) -> f64 {
+    under(scene, at_m).map(|object| object.shape.height_m()).fold(0.0, f64::max)
 }

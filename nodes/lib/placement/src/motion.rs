@@ -1,7 +1,7 @@
 //! With the target in the hand to over its place, straight down, and straight up again without it; every part proven free.
 
 use crate::access::Access;
-use crate::manipulator::Cell;
+use crate::manipulator::{Cell, resting_height_m};
 use crate::picking::Stand;
 use crate::settings::{LEAST_APPROACH_M, TOOL_STEP_M};
 use crate::space::ArmSpace;
@@ -48,9 +48,8 @@ pub(crate) fn plan(access: &Access, scene: &Scene, start: &[f64], at_m: Point) -
     let retreat = match manipulator.gripper() {
         None => Trajectory::default(),
         Some(_) => {
-            let base_m = access.base_m(at_m) - manipulator.settings.release_m;
-            let yaw_rad = access.cell.heading_rad(place);
-            let left = cell.around(scene, &Stand { at_m, base_m, yaw_rad });
+            let stand = Stand { at_m, base_m: resting_height_m(scene, at_m), yaw_rad: cell.heading_rad(place) };
+            let left = cell.around(scene, &stand);
             let mut space = ArmSpace::new(&left, start);
             let up = rise(&mut space, place, goal)?;
             Trajectory::new(manipulator, pace.timed(&mut space, &up)?)

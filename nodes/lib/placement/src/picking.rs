@@ -1,6 +1,6 @@
 //! Picking the target up: empty-handed over it, straight down, and with it straight up again; every part proven free.
 
-use crate::manipulator::{Cell, solid};
+use crate::manipulator::{Cell, solid, under};
 use crate::motion::{MOST_POSTURES, POSTURE_RESTARTS, Pace, rise};
 use crate::space::ArmSpace;
 use arm::{Goal, IkSettings, Isometry3, Obstacle, Placed, Translation3, Vector3, about_axis, about_z, solutions};
@@ -67,10 +67,8 @@ impl Cell<'_> {
     /// The same with the target in the hand, which may still touch what it stood on.
     fn lifting(&self, scene: &Scene, stand: &Stand) -> Self {
         let mut cell = self.clone();
-        let radius_m = scene.target.shape.bounding_radius_m();
-        let under = scene.objects.iter().filter(|object| object.supports && object.distance_m(stand.at_m) < radius_m);
         std::iter::once("table")
-            .chain(under.map(|object| object.id.as_str()))
+            .chain(under(scene, stand.at_m).map(|object| object.id.as_str()))
             .for_each(|name| cell.world.let_held_touch(name));
         cell
     }

@@ -331,7 +331,7 @@ impl Task<'_> {
                 None => String::new(),
             };
             let at = words(candidate.at_m);
-            plan.reason = format!("the arm puts '{label}' at {at} in {seconds:.1} s{moved}{detour}");
+            plan.reason = format!("the arm puts '{label}' at {at} and moves for {seconds:.1} s{moved}{detour}");
             return;
         }
         let best = tried.first().copied().unwrap_or(self.map_m);

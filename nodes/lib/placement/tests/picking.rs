@@ -3,11 +3,8 @@
 
 mod common;
 
-use arm::{
-    Chain, Checker, CollisionModel, Exclusions, Isometry3, Obstacle, Placed, Robot, Solid, Translation3, Vector3,
-    World, about_z,
-};
-use common::{TABLE_ARM, flowers, home, object, posterior};
+use arm::{Chain, Checker, CollisionModel, Exclusions, Isometry3, Obstacle, Placed, Robot, Vector3, World, about_z};
+use common::{TABLE_ARM, around, flowers, home, object, posterior, solid, upright};
 use placement::{
     ClosingAxis, Gripper, LossBatch, MotionSettings, PlacementPlan, PlanOutcome, Planner, Source, Stand, Trajectory,
 };
@@ -18,35 +15,6 @@ const TRAY: Stand = Stand { at_m: Point { x: 1.1, y: 0.15 }, base_m: 0.0, yaw_ra
 
 fn gripper() -> Gripper {
     Gripper { joint: "finger_left".into(), closed: 0.0, open: 0.075, opening_m: 0.154, axis: ClosingAxis::Y }
-}
-
-fn solid(object: &Object) -> Solid {
-    match object.shape {
-        Shape::Cylinder { radius_m, height_m } => Solid::Cylinder { radius: radius_m, half_length: height_m / 2.0 },
-        Shape::Box { width_m, depth_m, height_m } => {
-            Solid::Box { half_extents: [width_m / 2.0, depth_m / 2.0, height_m / 2.0] }
-        }
-    }
-}
-
-fn upright(x: f64, y: f64, base_m: f64, object: &Object, yaw_rad: f64) -> Isometry3<f64> {
-    Isometry3::from_parts(Translation3::new(x, y, base_m + object.shape.height_m() / 2.0), about_z(yaw_rad))
-}
-
-/// The table and what stands on it; the frame "table" is the robot's root.
-fn around(scene: &Scene) -> World {
-    let mut world = World::new();
-    world.add(Obstacle {
-        name: "table".into(),
-        solid: Solid::Box { half_extents: [scene.width_m / 2.0, scene.depth_m / 2.0, 0.02] },
-        root_from_solid: Isometry3::translation(scene.width_m / 2.0, scene.depth_m / 2.0, -0.02),
-    });
-    for object in &scene.objects {
-        let Point { x, y } = object.position_m;
-        let root_from_solid = upright(x, y, 0.0, object, object.yaw_rad);
-        world.add(Obstacle { name: object.id.clone(), solid: solid(object), root_from_solid });
-    }
-    world
 }
 
 struct Check {

@@ -4,10 +4,10 @@
 mod common;
 
 use arm::{
-    AxisGoal, Chain, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Obstacle, Placed,
-    Robot, Solid, Translation3, Vector3, World, about_z, solid_distance, solve,
+    AxisGoal, Chain, Checker, CollisionModel, Exclusions, Goal, IkOutcome, IkSettings, Isometry3, Placed, Robot,
+    Translation3, Vector3, World, about_z, solid_distance, solve,
 };
-use common::{TABLE_ARM, flowers, home, object, posterior, wall};
+use common::{TABLE_ARM, around, flowers, home, object, posterior, solid, wall};
 use placement::{CellState, LossBatch, MAP_SIDE, Manipulator, MotionSettings, PlanOutcome, Planner, ReachMap};
 use scene::{Grid, Object, Point, Rbf, Scene, Shape};
 use std::sync::Arc;
@@ -22,32 +22,9 @@ fn batch<'a>(draws: &'a [f32], map: &'a [f64]) -> LossBatch<'a> {
     LossBatch { draws, n_features: map.len(), map_weights: map, threads: 1 }
 }
 
-fn solid(object: &Object) -> Solid {
-    match object.shape {
-        Shape::Cylinder { radius_m, height_m } => Solid::Cylinder { radius: radius_m, half_length: height_m / 2.0 },
-        Shape::Box { width_m, depth_m, height_m } => {
-            Solid::Box { half_extents: [width_m / 2.0, depth_m / 2.0, height_m / 2.0] }
-        }
-    }
-}
-
 /// The world of a scene, built here once more; the frame "table" is the robot's root.
 fn world(robot: &Robot, chain: &Chain, scene: &Scene) -> World {
-    let mut world = World::new();
-    world.add(Obstacle {
-        name: "table".into(),
-        solid: Solid::Box { half_extents: [scene.width_m / 2.0, scene.depth_m / 2.0, 0.02] },
-        root_from_solid: Isometry3::translation(scene.width_m / 2.0, scene.depth_m / 2.0, -0.02),
-    });
-    for object in &scene.objects {
-        let Point { x, y } = object.position_m;
-        let at = Translation3::new(x, y, object.shape.height_m() / 2.0);
-        world.add(Obstacle {
-            name: object.id.clone(),
-            solid: solid(object),
-            root_from_solid: Isometry3::from_parts(at, about_z(object.yaw_rad)),
-        });
-    }
+    let mut world = around(scene);
     let height = scene.target.shape.height_m();
     let below = height - 0.03_f64.min(height / 2.0) - height / 2.0;
     let placed = Placed { solid: solid(&scene.target), owner_from_solid: Isometry3::translation(0.0, 0.0, below) };

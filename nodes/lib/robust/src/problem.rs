@@ -111,7 +111,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The best policy for each λ, in the order given (figure 7.3 b). What is learned for one serves the next, so that many
-    /// cost little more than one.
+    /// cost less than each alone.
     ///
     /// # Errors
     /// As [`Self::solve`]; no λ at all, or more than [`MAX_POINTS`].
@@ -146,37 +146,27 @@ impl<'a> Problem<'a> {
         let n_shared = SHARED.iter().copied().find(|n| 2 * n <= order.len()).unwrap_or(order.len());
         let (shared, rest) = order.split_at(n_shared);
         let first = self.span(first, shared, settings, watch)?;
-        let mut solutions = first.found.clone();
         let between = between(lambdas, shared, rest);
-        let n_threads = self.threads.min(between.len());
-        if n_threads > 1 {
-            let (tell, told) = channel();
-            let next = AtomicUsize::new(0);
-            let work = |tell: Sender<Solution>| {
-                let mut found = Vec::new();
-                while let Some(indices) = between.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    // Whoever listens outlives this.
-                    let mut tell = |solution: &Solution| drop(tell.send(solution.clone()));
-                    found.extend(self.span(first.fork(), indices, settings, &mut tell)?.found.split_off(n_shared));
-                }
-                Ok::<_, RobustError>(found)
-            };
-            let found = std::thread::scope(|scope| {
-                let workers: Vec<_> =
-                    (0..n_threads).map(|_| tell.clone()).map(|tell| scope.spawn(|| work(tell))).collect();
-                drop(tell);
-                told.iter().for_each(|solution| watch(&solution));
-                let join = |worker: ScopedJoinHandle<'_, _>| worker.join().unwrap_or_else(|panic| resume_unwind(panic));
-                workers.into_iter().map(join).collect::<Vec<_>>()
-            });
-            for part in found {
-                solutions.extend(part?);
+        let (tell, told) = channel();
+        let next = AtomicUsize::new(0);
+        let work = |tell: Sender<Solution>| {
+            let mut found = Vec::new();
+            while let Some(indices) = between.get(next.fetch_add(1, Ordering::Relaxed)) {
+                // Whoever listens outlives this.
+                let mut tell = |solution: &Solution| drop(tell.send(solution.clone()));
+                found.extend(self.span(first.fork(), indices, settings, &mut tell)?.found.split_off(n_shared));
             }
-        } else {
-            for indices in &between {
-                solutions.extend(self.span(first.fork(), indices, settings, watch)?.found.split_off(n_shared));
-            }
-        }
+            Ok::<_, RobustError>(found)
+        };
+        let parts = std::thread::scope(|scope| {
+            let tellers = std::iter::repeat_n(tell, self.threads.max(1).min(between.len()));
+            let workers: Vec<_> = tellers.map(|tell| scope.spawn(|| work(tell))).collect();
+            // Until the last worker is done.
+            told.iter().for_each(|solution| watch(&solution));
+            let join = |worker: ScopedJoinHandle<'_, _>| worker.join().unwrap_or_else(|panic| resume_unwind(panic));
+            workers.into_iter().map(join).collect::<Result<Vec<_>, _>>()
+        })?;
+        let mut solutions: Vec<(usize, Solution)> = parts.into_iter().flatten().chain(first.found).collect();
         solutions.sort_by_key(|(index, _)| *index);
         Ok(solutions.into_iter().map(|(_, solution)| solution).collect())
     }

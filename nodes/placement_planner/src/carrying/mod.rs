@@ -146,12 +146,9 @@ impl Carrier {
     /// Begins the step that the motion is at.
     fn begin(&mut self, now: Time) -> Vec<Deed> {
         let goal_id = self.fresh_id(&now);
-        let (has_controller, fingers) = (self.has_controller, self.fingers.as_ref());
+        let is_watched = self.is_watched();
+        let fingers = self.fingers.as_ref();
         let Some(motion) = &mut self.motion else { return Vec::new() };
-        let is_watched = match motion.limb() {
-            Limb::Arm => has_controller,
-            Limb::Gripper => fingers.is_some_and(|fingers| fingers.has_controller),
-        };
         motion.phase = if is_watched { Phase::Sent } else { Phase::Moving };
         (motion.goal_id, motion.attempt, motion.finger) = (goal_id, 1, None);
         (motion.since, motion.asked_at, motion.seen) = (now, now, now);

@@ -5,10 +5,8 @@ use apprentice_msgs::builtin_interfaces::Duration;
 use apprentice_msgs::control_msgs::{GripperCommand, GripperCommandGoal};
 use apprentice_msgs::msg::PlacementPlan;
 use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
+use exchange::{GRIP_S, trajectory_seconds};
 use placement::Gripper;
-
-/// How long fingers may take, seconds; it is also how fast they are told to go where there is no gripper controller.
-pub(crate) const GRIP_S: f64 = 1.0;
 
 /// A gripper, and how it is told.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +46,7 @@ impl Step {
     /// How long it takes if all goes well.
     pub fn seconds(&self) -> f64 {
         match &self.act {
-            Act::Move(trajectory) => seconds(trajectory),
+            Act::Move(trajectory) => trajectory_seconds(trajectory),
             Act::Grip { .. } => GRIP_S,
         }
     }
@@ -90,7 +88,7 @@ pub(super) fn of_giving_up(plan: &PlacementPlan) -> Vec<Step> {
 
 /// The same motion backwards, as fast.
 fn reversed(trajectory: &JointTrajectory) -> JointTrajectory {
-    let end_s = seconds(trajectory);
+    let end_s = trajectory_seconds(trajectory);
     let negated = |of: &[f64]| of.iter().map(|v| -v).collect();
     let points = trajectory.points.iter().rev().map(|point| JointTrajectoryPoint {
         positions: point.positions.clone(),
@@ -100,11 +98,6 @@ fn reversed(trajectory: &JointTrajectory) -> JointTrajectory {
         ..JointTrajectoryPoint::default()
     });
     JointTrajectory { points: points.collect(), ..trajectory.clone() }
-}
-
-/// Seconds from start to end.
-pub(super) fn seconds(trajectory: &JointTrajectory) -> f64 {
-    trajectory.points.last().map_or(0.0, |point| point.time_from_start.seconds())
 }
 
 impl Fingers {

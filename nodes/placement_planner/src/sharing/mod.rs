@@ -9,6 +9,7 @@ mod way;
 pub(crate) use way::Way;
 
 use crate::Output;
+use crate::target::is_elsewhere;
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{ArmMotion, PlacementPlan, SceneObject, TableScene};
 use apprentice_msgs::std_msgs::Header;
@@ -20,7 +21,7 @@ use std::collections::BTreeSet;
 /// What was shown last.
 #[derive(Debug, Default)]
 pub(crate) struct Sharing {
-    /// What the arm put down on this table, at its place.
+    /// The target where it stands: as it is seen, or where the arm put it down.
     placed: Option<SceneObject>,
     /// Whether something changed that was not shown yet.
     changed: bool,
@@ -36,8 +37,6 @@ pub(crate) struct Sharing {
 
 /// The links are told this often, at most, nanoseconds.
 const TOLD_EVERY_NS: i128 = 100_000_000;
-/// What is seen to have moved less is shown where it was, metres.
-const SEEN_M: f64 = 1e-3;
 /// A joint that moved less stands, radians or metres.
 const STANDS: f64 = 1e-3;
 
@@ -59,12 +58,7 @@ impl Sharing {
 
     /// The target is seen to stand somewhere.
     pub(crate) fn seen(&mut self, target: SceneObject) {
-        let far = |a: &SceneObject| {
-            let (a, b) = (&a.pose, &target.pose);
-            let by_m = (a.position.x - b.position.x).hypot(a.position.y - b.position.y);
-            by_m.max((a.position.z - b.position.z).abs()) > SEEN_M || a.orientation != b.orientation
-        };
-        if self.placed.as_ref().is_none_or(far) {
+        if self.placed.as_ref().is_none_or(|placed| is_elsewhere(&target, &placed.pose, &target.pose)) {
             self.placed = Some(target);
             self.changed = true;
         }

@@ -4,10 +4,8 @@ use crate::convert;
 use apprentice_msgs::msg::PlacementPlan;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
 use arm::Isometry3;
+use exchange::GRIP_S;
 use placement::Manipulator;
-
-/// How long the gripper is taken to need, seconds.
-const GRIP_S: f64 = 1.0;
 
 /// Empty without a trajectory.
 #[derive(Debug, Clone, Default)]
