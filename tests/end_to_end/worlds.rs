@@ -1,7 +1,7 @@
 //! Lessons about worlds: the robot asks a simulated person about a garden and a road until what it may lose is small.
 
 use crate::recorded::Recorded;
-use crate::suite::run;
+use crate::suite::{fresh_folder, run};
 use crate::taught::{Taught, teach};
 use apprentice_msgs::msg::{
     ActionDemonstration, LessonStatus, PolicyBounds, PolicyFrontier, PolicySet, Posterior, RobustPolicy,
@@ -101,6 +101,27 @@ fn a_garden_is_taught_by_answers_to_questions_and_replayed_to_the_bit() {
     for told in ["a grid of 6 × 7 cells", "taught after", "in the worst 5 % of what the person may mean"] {
         assert!(taught.shown.contains(told), "{told}\n{}", taught.shown);
     }
+    is_replayed(&taught);
+}
+
+#[test]
+fn a_person_whose_robot_learns_slowly_is_asked_ahead_and_that_is_replayed_to_the_bit_too() {
+    let slow = fresh_folder("ahead-parameters").join("slow.yaml");
+    // Learning takes seconds, and the person answers at once.
+    let parameters = "/**/active_query:\n  ros__parameters:\n    next_within_s: 0.2\n\
+                      /**/reward_posterior:\n  ros__parameters:\n    n_draws: 30000\n\
+                      /**/demonstrator:\n  ros__parameters:\n    response_delay_s: 0.0\n";
+    std::fs::write(&slow, parameters).expect("writes");
+    let file = slow.to_string_lossy().into_owned();
+    let taught = teach("ahead", &["--scenario", "grid", "--seed", "1", "--params-file", &file]);
+    let bag = is_whole(&taught);
+    let asked = bag.distinct::<WorldQuery>("world_query");
+    let ahead: Vec<u32> = asked.iter().map(|query| query.ahead).collect();
+    assert!(ahead.iter().any(|n| *n > 0) && ahead.iter().all(|n| *n <= 3), "{ahead:?}");
+    // Every question has a revision of its own, and is answered once.
+    assert!(asked.windows(2).all(|pair| pair[0].revision < pair[1].revision), "{asked:?}");
+    let lost = truly_lost(&bag, &[-0.02, -0.08, -0.45, -0.15, 0.3]);
+    assert!((0.0..0.05).contains(&(lost + 1e-12)), "with the person's own reward the robot loses {lost}");
     is_replayed(&taught);
 }
 

@@ -182,6 +182,11 @@ impl Lesson {
         }
     }
 
+    /// Everything heard so far, in order.
+    pub fn heard(&self) -> &[Heard] {
+        &self.heard
+    }
+
     /// What became of the evidence with an id.
     pub fn receipt(&mut self, id: &str) -> EvidenceReceipt {
         self.wait(&format!("the receipt of {id}"), |heard| match heard {

@@ -15,3 +15,4 @@ mod row;
 mod rviz;
 mod trajectories;
 mod undo;
+mod waiting;

@@ -911,7 +911,8 @@ uint8 COMPARISON=2               # which of the two trajectories is better; answ
 
 std_msgs/Header header           # stamp of the posterior
 string id
-uint64 revision                  # of the posterior it comes from
+uint64 revision                  # of the evidence that it asks to add to
+uint32 ahead                     # 0: chosen by the posterior of its revision; n: by that of n revisions before, whose answers were not learned from
 WorldReference world
 uint8 kind
 uint32 state                     # that it is about; where the trajectories begin

@@ -1493,8 +1493,10 @@ pub struct WorldQuery {
     pub header: super::std_msgs::Header,
     /// (`string`)
     pub id: std::string::String,
-    /// of the posterior it comes from (`uint64`)
+    /// of the evidence that it asks to add to (`uint64`)
     pub revision: u64,
+    /// 0: chosen by the posterior of its revision; n: by that of n revisions before, whose answers were not learned from (`uint32`)
+    pub ahead: u32,
     /// (`WorldReference`)
     pub world: super::msg::WorldReference,
     /// (`uint8`)

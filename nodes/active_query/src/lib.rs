@@ -2,6 +2,7 @@
 //! the largest bound, or another that [`Strategy`] chooses, until even the largest bound is below ε. In a lesson about a world
 //! it asks what to do in a state, what is good in a way, or which of two is better, until the robot's policy loses little.
 
+mod ahead;
 mod asking;
 mod node;
 mod run;
@@ -19,4 +20,4 @@ pub use node::{ActiveQuery, Event, Output};
 pub use run::run;
 pub use settings::{QuestionKind, Settings, Strategy};
 pub use world_lesson::world_lesson;
-pub use world_question::{WorldInputs, world_question};
+pub use world_question::{WorldInputs, questions_ahead, world_question};

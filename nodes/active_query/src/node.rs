@@ -28,6 +28,10 @@ pub enum Event {
     World(Box<TabularWorld>),
     /// Everything accepted so far: what was asked about a world before is in it.
     Evidence(Box<EvidenceLog>),
+    /// Time to choose what may follow the open question about a world, as [`Output::LookAhead`] asked for.
+    LookAhead,
+    /// A tenth of a second has passed.
+    Tick,
     /// Time to send the newest outputs again.
     Republish,
 }
@@ -41,6 +45,8 @@ pub enum Output {
     Query(Box<PlacementQuery>),
     /// The open question about a world.
     WorldQuery(Box<WorldQuery>),
+    /// The node wants [`Event::LookAhead`] as soon as nothing else waits: that takes a while, and the person thinks anyway.
+    LookAhead,
     /// Where the lesson stands.
     Lesson(LessonStatus),
     /// Something a person should know.
@@ -87,6 +93,11 @@ impl ActiveQuery {
                 self.worlds.take_log(log);
                 self.world()
             }
+            Event::LookAhead => {
+                self.worlds.look_ahead(&self.settings);
+                Vec::new()
+            }
+            Event::Tick => self.worlds.tick(&self.settings).into_iter().collect(),
             Event::Republish => self.republish(),
         }
     }

@@ -1,5 +1,6 @@
 //! The node on the graph.
 
+use crate::worlds::TICKS_PER_SECOND;
 use crate::{ActiveQuery, Event, Output, Settings};
 use apprentice_msgs::msg::{Candidates, LessonStatus, PlacementQuery, WorldQuery};
 use bus::{Arguments, Bus, Graph, Level, NodeError, Qos};
@@ -20,6 +21,10 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     bus.subscribe("lesson_world", Qos::State, |message| Event::World(Box::new(message)))?;
     bus.subscribe("evidence", Qos::State, |message| Event::Evidence(Box::new(message)))?;
     bus.every(Duration::from_secs_f64(settings.republish_period_s), || Event::Republish);
+    if settings.next_within_s > 0.0 {
+        bus.every(Duration::from_secs_f64(1.0 / TICKS_PER_SECOND), || Event::Tick);
+    }
+    let later = bus.sender();
     let mut node = ActiveQuery::new(settings);
     while let Some((now, event)) = bus.next() {
         for output in node.step(now, event) {
@@ -27,6 +32,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Output::Candidates(message) => candidates.publish(&message)?,
                 Output::Query(message) => query.publish(&message)?,
                 Output::WorldQuery(message) => world_query.publish(&message)?,
+                Output::LookAhead => later.send(Event::LookAhead),
                 Output::Lesson(message) => {
                     let state = [("state", message.state.to_string()), ("query", message.query_id.clone())];
                     bus.status(Level::Ok, message.reason.clone(), &state);

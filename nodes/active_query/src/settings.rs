@@ -58,6 +58,10 @@ pub struct Settings {
     pub hold_out_share: f64,
     /// Questions after which the lesson is given up.
     pub max_questions: i64,
+    /// After so many seconds a question about a world is asked that does not know of the newest answer; 0: never.
+    pub next_within_s: f64,
+    /// So many of them, at most, one after the other.
+    pub questions_ahead: i64,
     /// Whether nothing is asked before the person says start.
     pub wait_for_start: bool,
     /// How often the pending question and the lesson's state are sent again, seconds.
@@ -76,6 +80,8 @@ impl Default for Settings {
             trajectory_steps: 8,
             hold_out_share: 0.1,
             max_questions: 60,
+            next_within_s: 1.0,
+            questions_ahead: 3,
             wait_for_start: false,
             republish_period_s: 2.0,
         }
@@ -133,6 +139,17 @@ impl NodeSettings for Settings {
             name: "max_questions",
             about: "questions, or pieces of evidence about a world, after which the lesson is given up",
             range: Range::Integer { min: 1, max: 10_000 },
+        },
+        ParameterSpec {
+            name: "next_within_s",
+            about: "when the next question about a world takes longer than this after an answer, one is asked that was chosen before \
+                    and does not know of that answer, seconds; 0: the person waits",
+            range: Range::Float { min: 0.0, max: 3600.0 },
+        },
+        ParameterSpec {
+            name: "questions_ahead",
+            about: "how many such questions are asked one after the other, at most",
+            range: Range::Integer { min: 0, max: 16 },
         },
         ParameterSpec {
             name: "wait_for_start",

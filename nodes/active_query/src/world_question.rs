@@ -10,8 +10,8 @@ use apprentice_msgs::msg::{
 use exchange::{ROBUST_POLICY, World, check_posterior};
 use inquiry::tabular::{Answering, Over, alternatives, discounted_features, normalised_state_losses, state_losses};
 use inquiry::{
-    Answers, Belief, DrawnOptima, Effort, InquiryError, Losses, Objective, Question, Round, Selecting, Selection,
-    select, values_at_risk,
+    Answers, Belief, Branches, DrawnOptima, Effort, InquiryError, Losses, Objective, Question, Round, Selecting,
+    Selection, values_at_risk,
 };
 use likelihood::preferences::AnswerModel;
 use mdp::random::uniform;
@@ -32,6 +32,8 @@ const FLOOR: f64 = 1e-9;
 const SHORTLIST: usize = 24;
 /// Policies that the robot may take up after an answer, besides the MAP policy: optimal ones of draws.
 const ALTERNATIVES: usize = 40;
+/// Combinations of answers to open questions that are followed, at most: the most probable ones.
+const MAX_BRANCHES: usize = 8;
 /// Keeps these random numbers apart from those of the imagined tables.
 const WORLD_STREAM: u64 = 1 << 62;
 
@@ -60,7 +62,7 @@ pub fn world_question(
     if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() {
         return Ok(None);
     }
-    let query = ask(settings, inputs)?;
+    let query = ask(settings, inputs, 1)?.pop();
     Ok(query.map(|query| {
         let questions_asked = lesson.questions_asked.saturating_add(1);
         let lesson = LessonStatus { query_id: query.id.clone(), questions_asked, ..lesson.clone() };
@@ -68,18 +70,35 @@ pub fn world_question(
     }))
 }
 
-fn ask(settings: &Settings, inputs: &WorldInputs<'_>) -> Result<Option<WorldQuery>, String> {
-    let WorldInputs { posterior, world, log, bounds } = *inputs;
+/// The question to ask while the lesson goes on, as [`world_question`] has it, and at most `n` more to ask after it if the robot has
+/// not learned from the answers by then: each is chosen by what is expected once those before it are answered, and is of
+/// the revision that their answers make.
+///
+/// # Errors
+/// As [`world_question`].
+pub fn questions_ahead(
+    settings: &Settings,
+    inputs: &WorldInputs<'_>,
+    lesson: &LessonStatus,
+    n: usize,
+) -> Result<Vec<WorldQuery>, String> {
+    if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() {
+        return Ok(Vec::new());
+    }
+    ask(settings, inputs, 1 + n)
+}
+
+fn ask(settings: &Settings, inputs: &WorldInputs<'_>, n_questions: usize) -> Result<Vec<WorldQuery>, String> {
+    let WorldInputs { posterior, world, log, .. } = *inputs;
     check_posterior(posterior).map_err(|error| error.to_string())?;
     let (mdp, k) = (&world.mdp, world.feature_names.len());
     if posterior.world.hash != world.hash || posterior.feature_names.len() != k {
         return Err("the posterior is about another world".to_owned());
     }
     if mdp.n_actions() < 2 {
-        return Ok(None);
+        return Ok(Vec::new());
     }
-    let revision = posterior.revision;
-    let rests = Rests::new(log, revision).ok_or("the evidence ends before the posterior")?;
+    let mut rests = Rests::new(log, posterior.revision).ok_or("the evidence ends before the posterior")?;
     let n_draws = posterior.n_draws as usize;
     let n = SCORED.min(n_draws).min(MAX_VALUES / (mdp.n_states() * mdp.n_actions()));
     if n < MIN_SCORED.min(n_draws) {
@@ -100,63 +119,18 @@ fn ask(settings: &Settings, inputs: &WorldInputs<'_>) -> Result<Option<WorldQuer
         Scoring { settings, inputs, optima: &optima, map: Policy::Deterministic(map.clone()), chosen: &chosen };
     let steps = usize::try_from(settings.trajectory_steps).unwrap_or(2);
     let ways = Ways { mdp, map: &map, optima: &optima, steps, seed: settings.seed.unsigned_abs(), stream };
-    let Some(found) = scoring.choose(&ways, &situations, &rests).map_err(wrong)? else { return Ok(None) };
-
-    let Found { subject, gain, per_second, is_held_out, by_entropy, n_candidates } = found;
-    let state = [subject.state];
-    let at_risk = |losses: Losses| values_at_risk(&losses, &scoring.belief()?, bounds.alpha).map(|of| of[0]);
-    let value_at_risk = state_losses(mdp, &optima, &scoring.map, &state).and_then(at_risk).map_err(wrong)?;
-    let uniform_policy = Policy::uniform(mdp);
-    let share = normalised_state_losses(mdp, &optima, &scoring.map, &uniform_policy, FLOOR, &state)
-        .and_then(at_risk)
-        .map_err(wrong)?;
-    let why = match (is_held_out, settings.strategy) {
-        (true, _) => Why::HoldOut,
-        (false, Strategy::Random) => Why::Lot,
-        (false, Strategy::Information) if gain.is_some() => Why::Telling { n: n_candidates },
-        (false, Strategy::RewardInformation) if gain.is_some() => Why::Informing { n: n_candidates },
-        (false, Strategy::LookAhead) if gain.is_some() => Why::Helping { n: n_candidates },
-        (false, Strategy::Entropy) if by_entropy => Why::Torn { n_states: situations.len() },
-        (false, _) => Why::Risk { share, alpha: bounds.alpha, n_states: situations.len() },
-    };
-    let id = world_query_id(revision, subject.kind, subject.state, &short_hash(settings.seed, posterior));
-    let mut trajectories = Vec::new();
-    for (way, name) in subject.ways.iter().zip(["a", "b"]) {
-        trajectories.push(WorldTrajectory {
-            id: format!("{id}-{name}"),
-            states: way.iter().map(|step| number(step.0)).collect(),
-            actions: way.iter().map(|step| number(step.1)).collect(),
-            features: discounted_features(mdp, way).map_err(wrong)?,
-        });
+    let mut branches = Branches::now(scoring.belief().map_err(wrong)?);
+    let mut queries: Vec<WorldQuery> = Vec::new();
+    while queries.len() < n_questions {
+        let Some(found) = scoring.choose(&ways, &situations, &rests, &branches).map_err(wrong)? else { break };
+        if queries.len() + 1 < n_questions {
+            rests.answer(found.subject.kind, found.subject.state);
+            branches = branches.after(&scoring.answers(&found.subject).map_err(wrong)?, MAX_BRANCHES);
+        }
+        let is_first_left = uniform(&mut rng) >= 0.5;
+        queries.push(scoring.query(found, situations.len(), queries.len(), is_first_left)?);
     }
-    // Which stands on the left says nothing about which the robot would do.
-    if uniform(&mut rng) < 0.5 {
-        trajectories.reverse();
-    }
-    let robust = bounds.policies.iter().find(|policy| policy.id == ROBUST_POLICY).map(|policy| &policy.normalised_loss);
-    let question = world_words::question(world, subject.kind, subject.state);
-    Ok(Some(WorldQuery {
-        header: posterior.header.clone(),
-        id,
-        revision,
-        world: world.reference(),
-        kind: match subject.kind {
-            QuestionKind::Action => WorldQuery::ACTION,
-            QuestionKind::Critique => WorldQuery::CRITIQUE,
-            QuestionKind::Comparison => WorldQuery::COMPARISON,
-        },
-        state: number(subject.state),
-        trajectories,
-        reason: format!("{question} {}", world_words::why(why)),
-        value_at_risk,
-        alpha: bounds.alpha,
-        gain: gain.unwrap_or(f64::NAN),
-        gain_per_second: per_second.unwrap_or(f64::NAN),
-        held_out: is_held_out,
-        n_candidates: u32::try_from(n_candidates).unwrap_or(u32::MAX),
-        loss_bound: robust.filter(|of| of.outcome == RiskBound::BOUND).map_or(f64::NAN, |of| of.bound),
-        epsilon_loss: settings.epsilon_loss,
-    }))
+    Ok(queries)
 }
 
 /// A question with why it was chosen.
@@ -180,13 +154,90 @@ struct Scoring<'a> {
 }
 
 impl Scoring<'_> {
+    /// The message about a question, which `ahead` others come before; of two ways the first is shown on the left, or not.
+    fn query(
+        &self,
+        found: Found,
+        n_situations: usize,
+        ahead: usize,
+        is_first_left: bool,
+    ) -> Result<WorldQuery, String> {
+        let WorldInputs { posterior, world, bounds, .. } = *self.inputs;
+        let (settings, mdp) = (self.settings, self.mdp());
+        let wrong = |error: InquiryError| error.to_string();
+        let Found { subject, gain, per_second, is_held_out, by_entropy, n_candidates } = found;
+        let state = [subject.state];
+        let at_risk = |losses: Losses| values_at_risk(&losses, &self.belief()?, bounds.alpha).map(|of| of[0]);
+        let value_at_risk = state_losses(mdp, self.optima, &self.map, &state).and_then(at_risk).map_err(wrong)?;
+        let uniform_policy = Policy::uniform(mdp);
+        let share = normalised_state_losses(mdp, self.optima, &self.map, &uniform_policy, FLOOR, &state)
+            .and_then(at_risk)
+            .map_err(wrong)?;
+        let why = match (is_held_out, settings.strategy) {
+            (true, _) => Why::HoldOut,
+            (false, Strategy::Random) => Why::Lot,
+            (false, Strategy::Information) if gain.is_some() => Why::Telling { n: n_candidates },
+            (false, Strategy::RewardInformation) if gain.is_some() => Why::Informing { n: n_candidates },
+            (false, Strategy::LookAhead) if gain.is_some() => Why::Helping { n: n_candidates },
+            (false, Strategy::Entropy) if by_entropy => Why::Torn { n_states: n_situations },
+            (false, _) => Why::Risk { share, alpha: bounds.alpha, n_states: n_situations },
+        };
+        let revision = posterior.revision + ahead as u64;
+        let id = world_query_id(revision, subject.kind, subject.state, &short_hash(settings.seed, posterior));
+        let mut trajectories = Vec::new();
+        for (way, name) in subject.ways.iter().zip(["a", "b"]) {
+            trajectories.push(WorldTrajectory {
+                id: format!("{id}-{name}"),
+                states: way.iter().map(|step| number(step.0)).collect(),
+                actions: way.iter().map(|step| number(step.1)).collect(),
+                features: discounted_features(mdp, way).map_err(wrong)?,
+            });
+        }
+        // Which stands on the left says nothing about which the robot would do.
+        if !is_first_left {
+            trajectories.reverse();
+        }
+        let robust = bounds.policies.iter().find(|policy| policy.id == ROBUST_POLICY);
+        let loss = robust.map(|policy| &policy.normalised_loss).filter(|of| of.outcome == RiskBound::BOUND);
+        let question = world_words::question(world, subject.kind, subject.state);
+        Ok(WorldQuery {
+            header: posterior.header.clone(),
+            id,
+            revision,
+            ahead: number(ahead),
+            world: world.reference(),
+            kind: match subject.kind {
+                QuestionKind::Action => WorldQuery::ACTION,
+                QuestionKind::Critique => WorldQuery::CRITIQUE,
+                QuestionKind::Comparison => WorldQuery::COMPARISON,
+            },
+            state: number(subject.state),
+            trajectories,
+            reason: format!("{question} {}{}", world_words::why(why), world_words::ahead(ahead)),
+            value_at_risk,
+            alpha: bounds.alpha,
+            gain: gain.unwrap_or(f64::NAN),
+            gain_per_second: per_second.unwrap_or(f64::NAN),
+            held_out: is_held_out,
+            n_candidates: u32::try_from(n_candidates).unwrap_or(u32::MAX),
+            loss_bound: loss.map_or(f64::NAN, |of| of.bound),
+            epsilon_loss: settings.epsilon_loss,
+        })
+    }
+
     fn belief(&self) -> Result<Belief, InquiryError> {
         Belief::equal(self.optima.n())
     }
 
     /// The question of the strategy. Where nothing would change what matters, something is asked all the same: the lesson goes
     /// on until the bound is small.
-    fn choose(&self, ways: &Ways<'_>, situations: &[usize], rests: &Rests) -> Result<Option<Found>, InquiryError> {
+    fn choose(
+        &self,
+        ways: &Ways<'_>,
+        situations: &[usize],
+        rests: &Rests,
+        branches: &Branches,
+    ) -> Result<Option<Found>, InquiryError> {
         let (settings, alpha) = (self.settings, self.inputs.bounds.alpha);
         let mut kinds = settings.question_kinds.clone();
         kinds.sort_unstable();
@@ -197,7 +248,10 @@ impl Scoring<'_> {
             for kind in kinds {
                 subjects.extend(ways.subjects(*kind, situations)?);
             }
-            strategies.iter().find_map(|by| self.select(&subjects, situations, rests, *by).transpose()).transpose()
+            strategies
+                .iter()
+                .find_map(|by| self.select(&subjects, situations, rests, branches, *by).transpose())
+                .transpose()
         };
         let (telling, any) = (inquiry::Strategy::RewardInformation, inquiry::Strategy::Random);
         match settings.strategy {
@@ -237,6 +291,7 @@ impl Scoring<'_> {
         subjects: &[Subject],
         situations: &[usize],
         rests: &Rests,
+        branches: &Branches,
         strategy: inquiry::Strategy,
     ) -> Result<Option<Found>, InquiryError> {
         if subjects.is_empty() {
@@ -272,7 +327,7 @@ impl Scoring<'_> {
             hold_out_share: self.settings.hold_out_share,
             seed: self.settings.seed.unsigned_abs(),
         };
-        let chosen = match select(&round, &selecting, WORLD_STREAM >> 1 | rests.n as u64)? {
+        let chosen = match branches.select(&round, &selecting, WORLD_STREAM >> 1 | rests.n as u64, &[])? {
             Selection::Ask(chosen) => chosen,
             Selection::NothingToLearn | Selection::NothingFeasible => return Ok(None),
         };

@@ -43,6 +43,12 @@ impl Rests {
         Some(rests)
     }
 
+    /// Takes it that one more question will have been answered.
+    pub fn answer(&mut self, kind: QuestionKind, state: usize) {
+        self.n += 1;
+        self.answered.insert((kind, state));
+    }
+
     /// Whether a question need not be asked now: level 0 leaves out what was answered lately or skipped, level 1 what was
     /// skipped, level 2 nothing.
     pub fn holds(&self, level: usize, kind: QuestionKind, state: usize) -> bool {

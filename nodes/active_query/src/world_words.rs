@@ -63,6 +63,15 @@ pub(crate) fn why(why: Why) -> String {
     }
 }
 
+/// That a question does not know of the newest answers, where it does not.
+pub(crate) fn ahead(n: usize) -> String {
+    match n {
+        0 => String::new(),
+        1 => " I am still learning from your last answer, so that this question does not know of it.".to_owned(),
+        n => format!(" I am still learning from your last {n} answers, so that this question does not know of them."),
+    }
+}
+
 /// Where a state is: "in row 2, column 5 (flowers)".
 fn place(world: &World, state: usize) -> String {
     match world.picture {

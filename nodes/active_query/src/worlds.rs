@@ -1,10 +1,14 @@
 //! A lesson about a world, as the node hears of it: what has come so far, and what was made of it.
 
+use crate::ahead::Ahead;
 use crate::node::Output;
-use crate::{Settings, WorldInputs, world_lesson, world_question};
+use crate::{Settings, WorldInputs, questions_ahead, world_lesson, world_question};
 use apprentice_msgs::msg::{EvidenceLog, LessonStatus, PolicyBounds, Posterior, TabularWorld, WorldQuery};
 use apprentice_msgs::to_cdr;
 use exchange::{MAX_ID, World, world_from_message, world_hash};
+
+/// Ticks in a second.
+pub(crate) const TICKS_PER_SECOND: f64 = 10.0;
 
 /// See the module.
 #[derive(Default)]
@@ -16,6 +20,7 @@ pub(crate) struct Worlds {
     /// The state of the lesson that was told last, before a question was added.
     known: Option<LessonStatus>,
     query: Option<Box<WorldQuery>>,
+    ahead: Option<Ahead>,
     told: Option<String>,
 }
 
@@ -59,20 +64,27 @@ impl Worlds {
         if self.known.as_ref().is_some_and(|known| to_cdr(known) == to_cdr(&lesson)) {
             return Vec::new();
         }
+        if lesson.state == LessonStatus::ASKING
+            && let Some(with_question) = self.asked_ahead(&lesson)
+        {
+            self.known = Some(lesson);
+            return vec![Output::Lesson(with_question)];
+        }
         let mut asked = Ok(None);
         if lesson.state == LessonStatus::ASKING && !settings.question_kinds.is_empty() {
-            let world = self.world.as_ref().filter(|world| world.hash == posterior.world.hash);
-            let log = self.log.as_ref().filter(|log| log.records.len() as u64 >= posterior.revision);
-            let (Some(world), Some(log)) = (world, log) else { return Vec::new() };
-            asked = world_question(settings, &WorldInputs { posterior, world, log, bounds }, &lesson);
+            let Some(inputs) = self.inputs() else { return Vec::new() };
+            asked = world_question(settings, &inputs, &lesson);
         }
         self.known = Some(lesson.clone());
-        self.query = None;
+        (self.query, self.ahead) = (None, None);
         let mut outputs = Vec::new();
         let lesson = match asked {
             Ok(Some((query, lesson))) => {
                 let query = Box::new(query);
                 outputs.push(Output::WorldQuery(query.clone()));
+                if settings.next_within_s > 0.0 && settings.questions_ahead > 0 {
+                    self.ahead = Some(Ahead::new((*query).clone()));
+                }
                 self.query = Some(query);
                 lesson
             }
@@ -83,7 +95,52 @@ impl Worlds {
             }
         };
         outputs.push(Output::Lesson(lesson));
+        outputs.extend(self.ahead.as_ref().map(|_| Output::LookAhead));
         outputs
+    }
+
+    /// What a question is chosen by, once everything is there.
+    fn inputs(&self) -> Option<WorldInputs<'_>> {
+        let (posterior, bounds) = (self.posterior.as_ref()?, self.bounds.as_ref()?);
+        let world = self.world.as_ref().filter(|world| world.hash == posterior.world.hash)?;
+        let log = self.log.as_ref().filter(|log| log.records.len() as u64 >= posterior.revision)?;
+        Some(WorldInputs { posterior, world, log, bounds })
+    }
+
+    /// The lesson when a question is open that was asked before the posterior came: it stays, since the person may be at it. One
+    /// that is of a later revision still is not this posterior's.
+    fn asked_ahead(&self, lesson: &LessonStatus) -> Option<LessonStatus> {
+        let query = self.query.as_ref().filter(|query| query.ahead > 0 && query.revision >= lesson.revision)?;
+        let is_its_own = query.revision == lesson.revision;
+        Some(LessonStatus {
+            query_id: if is_its_own { query.id.clone() } else { String::new() },
+            questions_asked: lesson.questions_asked.saturating_add(u32::from(is_its_own)),
+            ..lesson.clone()
+        })
+    }
+
+    /// Chooses what may follow the open question, while the person thinks.
+    pub fn look_ahead(&mut self, settings: &Settings) {
+        let open = self.ahead.as_ref().and_then(Ahead::bare);
+        let (Some(open), Some(lesson), Some(inputs)) = (open, &self.known, self.inputs()) else { return };
+        if open.revision != inputs.posterior.revision {
+            return;
+        }
+        let n = usize::try_from(settings.questions_ahead).unwrap_or(0);
+        // What cannot be asked was told of when the open question was chosen.
+        let queries = questions_ahead(settings, &inputs, lesson, n).unwrap_or_default();
+        if let Some(ahead) = &mut self.ahead {
+            ahead.follow(queries);
+        }
+    }
+
+    /// A tick has passed: what is asked because the person has waited long enough.
+    pub fn tick(&mut self, settings: &Settings) -> Option<Output> {
+        let patience = (settings.next_within_s * TICKS_PER_SECOND).ceil() as u32;
+        let next = self.ahead.as_mut()?.tick(self.log.as_ref()?, patience)?;
+        let query = Box::new(next);
+        self.query = Some(query.clone());
+        Some(Output::WorldQuery(query))
     }
 
     /// The open question, to be sent again.

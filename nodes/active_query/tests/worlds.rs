@@ -1,6 +1,9 @@
 //! Which question about a world is asked, shown against values at risk that are computed here by hand.
 
-use active_query::{ActiveQuery, Event, Output, QuestionKind, Settings, Strategy};
+use active_query::{
+    ActiveQuery, Event, Output, QuestionKind, Settings, Strategy, WorldInputs, questions_ahead, world_lesson,
+    world_question,
+};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
     ActionDemonstration, EvidenceLog, EvidenceRecord, LessonStatus, PolicyBound, PolicyBounds, Posterior,
@@ -92,7 +95,7 @@ fn asked(settings: &Settings, records: &[EvidenceRecord]) -> WorldQuery {
     step(&mut node, Event::Evidence(Box::new(log(records))));
     step(&mut node, Event::Posterior(Box::new(posterior(revision))));
     match step(&mut node, Event::PolicyBounds(Box::new(bounds(revision, 0.5)))).as_slice() {
-        [Output::WorldQuery(query), Output::Lesson(lesson)] => {
+        [Output::WorldQuery(query), Output::Lesson(lesson), Output::LookAhead] => {
             assert_eq!((&lesson.query_id, lesson.state), (&query.id, LessonStatus::ASKING));
             assert_eq!(lesson.questions_asked, u32::try_from(revision).expect("few") + 1);
             check_world_query(query, &world()).expect("it can be answered");
@@ -307,7 +310,7 @@ fn nothing_is_asked_before_all_is_known_or_when_the_lesson_is_over_or_nothing_ma
     assert!(step(&mut node, Event::PolicyBounds(Box::new(bounds(0, 0.5)))).is_empty(), "neither world nor evidence");
     assert!(step(&mut node, Event::World(Box::new(message()))).is_empty(), "no evidence yet");
     let told = step(&mut node, Event::Evidence(Box::new(log(&[]))));
-    assert!(matches!(told.as_slice(), [Output::WorldQuery(_), Output::Lesson(_)]), "{told:?}");
+    assert!(matches!(told.as_slice(), [Output::WorldQuery(_), Output::Lesson(_), Output::LookAhead]), "{told:?}");
     assert!(step(&mut node, Event::PolicyBounds(Box::new(bounds(0, 0.5)))).is_empty(), "a repetition is no news");
     let again = step(&mut node, Event::Republish);
     assert!(matches!(again.as_slice(), [Output::WorldQuery(_), Output::Lesson(_)]), "{again:?}");
@@ -342,4 +345,103 @@ fn a_posterior_and_a_world_that_cannot_be_computed_with_are_told_and_the_lesson_
         }
         other => panic!("a warning and the lesson were expected, got {other:?}"),
     }
+}
+
+/// A node that has asked at revision 0, with its question.
+fn asking(settings: &Settings) -> (ActiveQuery, WorldQuery) {
+    let mut node = ActiveQuery::new(settings.clone());
+    step(&mut node, Event::World(Box::new(message())));
+    step(&mut node, Event::Evidence(Box::new(log(&[]))));
+    step(&mut node, Event::Posterior(Box::new(posterior(0))));
+    let outputs = step(&mut node, Event::PolicyBounds(Box::new(bounds(0, 0.5))));
+    let Some(Output::WorldQuery(query)) = outputs.first() else { panic!("a question: {outputs:?}") };
+    (node, (**query).clone())
+}
+
+/// What is asked in a second, a tick after the other.
+fn in_a_second(node: &mut ActiveQuery) -> Vec<WorldQuery> {
+    let ticks = (0..10).flat_map(|_| step(node, Event::Tick));
+    let query = |output| match output {
+        Output::WorldQuery(query) => *query,
+        other => panic!("only questions come by themselves: {other:?}"),
+    };
+    ticks.map(query).collect()
+}
+
+#[test]
+fn a_person_who_has_waited_for_a_second_is_asked_what_was_chosen_before_and_that_question_stays() {
+    for strategy in [Strategy::Var, Strategy::Information, Strategy::LookAhead, Strategy::Entropy, Strategy::Random] {
+        let settings = Settings { strategy, ..settings() };
+        let (mut node, first) = asking(&settings);
+        assert!(step(&mut node, Event::LookAhead).is_empty());
+        let records = [answered(&first, 1)];
+        step(&mut node, Event::Evidence(Box::new(log(&records))));
+        let asked = in_a_second(&mut node);
+        let [second] = asked.as_slice() else { panic!("{strategy:?}: one question: {asked:?}") };
+        check_world_query(second, &world()).expect("it can be answered");
+        assert_eq!((second.revision, second.ahead, first.ahead), (1, 1, 0));
+        assert_ne!((second.kind, second.state), (first.kind, first.state), "{strategy:?}: nothing is asked twice");
+        assert!(second.reason.ends_with("does not know of it."), "{}", second.reason);
+        // Its posterior comes at last: the question is not taken from under the person's hands.
+        step(&mut node, Event::Posterior(Box::new(posterior(1))));
+        let outputs = step(&mut node, Event::PolicyBounds(Box::new(bounds(1, 0.4))));
+        let [Output::Lesson(lesson)] = outputs.as_slice() else { panic!("no other question: {outputs:?}") };
+        assert_eq!((&lesson.query_id, lesson.revision, lesson.questions_asked), (&second.id, 1, 2));
+        // And is followed by another one, of the posterior that knows of both answers.
+        let records = [answered(&first, 1), answered(second, 2)];
+        step(&mut node, Event::Evidence(Box::new(log(&records))));
+        step(&mut node, Event::Posterior(Box::new(posterior(2))));
+        let outputs = step(&mut node, Event::PolicyBounds(Box::new(bounds(2, 0.3))));
+        let [Output::WorldQuery(third), Output::Lesson(_), Output::LookAhead] = outputs.as_slice() else {
+            panic!("{outputs:?}")
+        };
+        assert_eq!((third.revision, third.ahead), (2, 0));
+    }
+}
+
+#[test]
+fn so_many_are_asked_ahead_and_a_lesson_that_is_over_ends_them() {
+    let settings = Settings { questions_ahead: 2, ..settings() };
+    let (mut node, first) = asking(&settings);
+    step(&mut node, Event::LookAhead);
+    let mut records = vec![answered(&first, 1)];
+    for n in 1..=2 {
+        step(&mut node, Event::Evidence(Box::new(log(&records))));
+        let asked = in_a_second(&mut node);
+        assert_eq!(asked.iter().map(|query| query.ahead).collect::<Vec<_>>(), [n]);
+        records.push(answered(&asked[0], u64::from(n) + 1));
+    }
+    step(&mut node, Event::Evidence(Box::new(log(&records))));
+    assert!(in_a_second(&mut node).is_empty(), "two were allowed");
+    step(&mut node, Event::Posterior(Box::new(posterior(2))));
+    let told = step(&mut node, Event::PolicyBounds(Box::new(bounds(2, 0.05))));
+    assert!(matches!(told.as_slice(), [Output::Lesson(lesson)] if lesson.state == LessonStatus::TAUGHT));
+    assert!(in_a_second(&mut node).is_empty());
+}
+
+#[test]
+fn nobody_is_asked_ahead_who_did_something_else_or_where_it_is_switched_off() {
+    let (mut node, first) = asking(&settings());
+    step(&mut node, Event::LookAhead);
+    step(&mut node, Event::Evidence(Box::new(log(&[answered(&first, 1), undone(1, 2)]))));
+    assert!(in_a_second(&mut node).is_empty());
+    for off in [Settings { next_within_s: 0.0, ..settings() }, Settings { questions_ahead: 0, ..settings() }] {
+        let (mut node, first) = asking(&off);
+        step(&mut node, Event::LookAhead);
+        step(&mut node, Event::Evidence(Box::new(log(&[answered(&first, 1)]))));
+        assert!(in_a_second(&mut node).is_empty());
+    }
+}
+
+#[test]
+fn the_first_of_the_questions_ahead_is_the_open_one_and_the_rest_are_chosen_as_if_it_was_answered() {
+    let (posterior, world, log, bounds) = (posterior(0), world(), log(&[]), bounds(0, 0.5));
+    let inputs = WorldInputs { posterior: &posterior, world: &world, log: &log, bounds: &bounds };
+    let lesson = world_lesson(&settings(), &posterior, &bounds).expect("a lesson");
+    let (open, _) = world_question(&settings(), &inputs, &lesson).expect("inputs that fit").expect("a question");
+    let all = questions_ahead(&settings(), &inputs, &lesson, 3).expect("inputs that fit");
+    assert_eq!((to_cdr(&all[0]), all.len()), (to_cdr(&open), 4));
+    let kinds: Vec<u8> = all.iter().map(|query| query.kind).collect();
+    assert_eq!(kinds, [0, 1, 2, 0], "kinds go on taking turns");
+    assert!(all.iter().zip(0..).all(|(query, n)| (query.revision, query.ahead) == (u64::from(n), n)));
 }

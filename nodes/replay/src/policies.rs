@@ -2,7 +2,7 @@
 
 use crate::report::{Mismatch, found};
 use crate::{Difference, Lesson, Recording, ReplayError};
-use active_query::{WorldInputs, world_lesson, world_question};
+use active_query::{WorldInputs, questions_ahead, world_lesson, world_question};
 use apprentice_msgs::msg::{LessonStatus, PolicyFrontier, RiskPreference, RobustPolicy, WorldQuery};
 use apprentice_msgs::{Message, to_cdr};
 use bus::NodeSettings;
@@ -32,31 +32,83 @@ impl Said {
 /// What may be said at a revision.
 pub(crate) fn said(recording: &Recording, lesson: &Lesson, revision: u64) -> Said {
     let mut said = Said::default();
-    let (Some(settings), Some(round)) = (&lesson.query, lesson.round(revision)) else { return said };
-    let posterior = &round.posterior;
-    for (bounds, _) in recording.policy_bounds.get(&revision).into_iter().flatten() {
-        let Some(state) = world_lesson(settings, posterior, bounds) else { continue };
-        let world = lesson.worlds.get(&posterior.world.hash);
-        let inputs = world.map(|world| WorldInputs { posterior, world, log: &recording.evidence, bounds });
+    let Some(settings) = &lesson.query else { return said };
+    let ahead = asked_ahead(recording, lesson, revision);
+    // Only a person who is asked ahead gives evidence before the posterior of the last has come.
+    let is_overtaken =
+        recording.world_query.range(revision + 1..).any(|(_, asked)| asked.iter().any(|(query, _)| query.ahead > 0));
+    for (inputs, state) in judged(recording, lesson, revision) {
         let asked = inputs.and_then(|inputs| world_question(settings, &inputs, &state).ok().flatten());
+        if state.state == LessonStatus::ASKING {
+            let stays = |query: &WorldQuery| LessonStatus {
+                query_id: query.id.clone(),
+                questions_asked: state.questions_asked.saturating_add(1),
+                ..state.clone()
+            };
+            said.states.extend(ahead.iter().map(stays));
+            said.states.extend(is_overtaken.then(|| state.clone()));
+        }
         let (query, state) = asked.map_or((None, state), |(query, state)| (Some(query), state));
         said.queries.extend(query);
         said.states.push(state);
     }
+    said.queries.splice(0..0, ahead);
     said
+}
+
+/// Where a lesson about a world stood at a revision, for each judgement of the robot's policy, and what a question was chosen by.
+fn judged<'a>(
+    recording: &'a Recording,
+    lesson: &'a Lesson,
+    revision: u64,
+) -> impl Iterator<Item = (Option<WorldInputs<'a>>, LessonStatus)> {
+    let known = lesson.query.as_ref().zip(lesson.round(revision));
+    let bounds = recording.policy_bounds.get(&revision).into_iter().flatten();
+    bounds.filter_map(move |(bounds, _)| {
+        let (settings, round) = known?;
+        let posterior = &round.posterior;
+        let state = world_lesson(settings, posterior, bounds)?;
+        let world = lesson.worlds.get(&posterior.world.hash);
+        Some((world.map(|world| WorldInputs { posterior, world, log: &recording.evidence, bounds }), state))
+    })
+}
+
+/// The questions of a revision that were recorded as chosen by the posterior of an earlier one, chosen anew.
+fn asked_ahead(recording: &Recording, lesson: &Lesson, revision: u64) -> Vec<WorldQuery> {
+    let Some(settings) = &lesson.query else { return Vec::new() };
+    let recorded = recording.world_query.get(&revision).into_iter().flatten();
+    let mut places: Vec<u32> = recorded.map(|(query, _)| query.ahead).filter(|ahead| *ahead > 0).collect();
+    places.sort_unstable();
+    places.dedup();
+    let n = usize::try_from(settings.questions_ahead).unwrap_or(0);
+    let mut found = Vec::new();
+    for place in places {
+        let Some(base) = revision.checked_sub(u64::from(place)) else { continue };
+        for (inputs, state) in judged(recording, lesson, base) {
+            let all = inputs.and_then(|inputs| questions_ahead(settings, &inputs, &state, n).ok());
+            found.extend(all.and_then(|all| all.into_iter().nth(place as usize)));
+        }
+    }
+    found
 }
 
 /// Recorded states of a lesson about a world, and its questions, must follow from one of the recorded bounds on the robot's
 /// policy, which are compared on their own.
 pub(crate) fn world_lessons(recording: &Recording, said: &Said, revision: u64) -> Option<Mismatch> {
-    one_of(recording.world_query.get(&revision), &said.queries, revision)
-        .or_else(|| one_of(recording.lesson.get(&revision), &said.states, revision))
+    one_of(recording.world_query.get(&revision), &said.queries, revision, |a, b| a.ahead == b.ahead)
+        .or_else(|| one_of(recording.lesson.get(&revision), &said.states, revision, |a, b| a.query_id == b.query_id))
 }
 
-fn one_of<M: Message>(recorded: Option<&Vec<(M, Vec<u8>)>>, possible: &[M], revision: u64) -> Option<Mismatch> {
+/// A recorded message that is none of the possible ones, held against one that `is_like` it, or the last.
+fn one_of<M: Message>(
+    recorded: Option<&Vec<(M, Vec<u8>)>>,
+    possible: &[M],
+    revision: u64,
+    is_like: impl Fn(&M, &M) -> bool,
+) -> Option<Mismatch> {
     let known: Vec<Vec<u8>> = possible.iter().map(to_cdr).collect();
     let (other, _) = recorded?.iter().find(|(_, bytes)| !known.contains(bytes))?;
-    Some(match possible.last() {
+    Some(match possible.iter().find(|one| is_like(one, other)).or(possible.last()) {
         Some(last) => found(other, last, revision),
         None => none_is_due(M::TYPE, revision),
     })

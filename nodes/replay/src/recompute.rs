@@ -172,7 +172,9 @@ fn table_round(
             active_query::Output::Query(message) => asked = Some(*message),
             active_query::Output::Lesson(message) => lesson = Some(message),
             active_query::Output::Warn(text) => return Err(text),
-            active_query::Output::Candidates(_) | active_query::Output::WorldQuery(_) => {}
+            active_query::Output::Candidates(_)
+            | active_query::Output::WorldQuery(_)
+            | active_query::Output::LookAhead => {}
         }
     }
     let lesson = lesson.ok_or("active_query gave no state of the lesson")?;

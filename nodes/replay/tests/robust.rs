@@ -141,6 +141,43 @@ fn policies_frontiers_and_states_are_equal_bit_for_bit_with_any_number_of_thread
 }
 
 #[test]
+fn a_question_that_was_asked_ahead_follows_from_the_posterior_that_it_names() {
+    let bag = session();
+    let recording = collect(&bag).expect("the bag is good");
+    let lesson = recompute(&recording, None, |_| {}).expect("the session can be computed");
+    let settings = active_query::Settings::default();
+    let of = world_from_message(&world()).expect("a good world");
+    let (posterior, log) = (&lesson.rounds[1].posterior, &recording.evidence);
+    let bounds = &recording.policy_bounds[&1][0].0;
+    let state = active_query::world_lesson(&settings, posterior, bounds).expect("it is about a world");
+    let inputs = active_query::WorldInputs { posterior, world: &of, log, bounds };
+    let asked = active_query::questions_ahead(&settings, &inputs, &state, 3).expect("it fits together").swap_remove(1);
+    assert_eq!((asked.revision, asked.ahead), (2, 1));
+    let later = recording.lesson[&2][0].0.clone();
+    let stays = LessonStatus { query_id: asked.id.clone(), ..later };
+    // It was open when the state of its revision came, and stayed.
+    let with = |query: &WorldQuery, state: &LessonStatus| {
+        let mut bag: Bag = bag.clone();
+        record(&mut bag, "world_query", query);
+        record(&mut bag, "lesson", state);
+        verified(&bag, 1).expect("it can be compared")
+    };
+    let report = with(&asked, &stays);
+    assert_eq!((report.mismatch, report.world_queries.recorded), (None, 6));
+    let named = |query: &WorldQuery, state: &LessonStatus| {
+        with(query, state).mismatch.map(|m| (m.message, m.revision, m.difference.field))
+    };
+    let other = WorldQuery { state: asked.state ^ 1, ..asked.clone() };
+    assert_eq!(named(&other, &stays), Some((WorldQuery::TYPE, 2, "state".into())));
+    for ahead in [2, 3, 9] {
+        let other = WorldQuery { ahead, ..asked.clone() };
+        assert!(named(&other, &stays).is_some(), "from no posterior so far back: {ahead}");
+    }
+    let unknown = LessonStatus { query_id: "w2-a0-00000000".into(), ..stays.clone() };
+    assert!(named(&asked, &unknown).is_some_and(|(message, ..)| message == LessonStatus::TYPE));
+}
+
+#[test]
 fn a_changed_bit_is_named_wherever_it_is() {
     let found = |bag: Bag| {
         let mismatch = verified(&bag, 1).expect("it can be compared").mismatch.expect("a bit differs");

@@ -10,9 +10,10 @@ use exchange::{
 };
 use likelihood::actions::{ActionLikelihood, Choice, ChoiceVerdict};
 use likelihood::preferences::{Answer, PreferenceLikelihood, Verdict, cycles, ranking};
-use posterior::{Demonstration, Draws, EvidenceKind, Lesson, Model, PlacementTerm, Term, TermLikelihood, draw};
+use posterior::{Demonstration, Draws, EvidenceKind, Lesson, Model, PlacementTerm, Term, TermLikelihood, draw_unless};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
+use std::sync::atomic::AtomicBool;
 
 /// A placement as the core takes it.
 ///
@@ -54,11 +55,17 @@ pub(crate) fn evidence_hash(evidence: &Evidence) -> [u8; 32] {
 /// Draws given the evidence in force: a function of the settings and of that evidence in accepted order, of nothing else.
 ///
 /// # Errors
-/// Evidence that the core cannot use, although it was checked before it was accepted; and a posterior that is zero
-/// everywhere.
-pub(crate) fn infer(settings: &Settings, evidence: &Evidence, hash: &[u8; 32]) -> Result<Draws, String> {
+/// Evidence that the core cannot use, although it was checked before it was accepted; a posterior that is zero everywhere;
+/// and draws that are not wanted any more, which `stop` says.
+pub(crate) fn infer(
+    stop: &AtomicBool,
+    settings: &Settings,
+    evidence: &Evidence,
+    hash: &[u8; 32],
+) -> Result<Draws, String> {
     let model = model(settings, evidence)?;
-    draw(&model, &settings.run(), settings.seed.unsigned_abs(), hash).map_err(|error| error.to_string())
+    let seed = settings.seed.unsigned_abs();
+    draw_unless(stop, &model, &settings.run(), seed, hash, None).map_err(|error| error.to_string())
 }
 
 /// The model of the evidence in force. Kinds without any have no term: it is the same whether they never had any or all of

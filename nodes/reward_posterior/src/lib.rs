@@ -14,9 +14,11 @@ mod settings;
 mod subject;
 mod waiting;
 mod weights;
+mod work;
 
 pub use evidence::Evidence;
 pub use journal::{Entry, JournalError, MAGIC, read_journal};
 pub use node::{Event, Output, RewardPosterior};
 pub use run::run;
 pub use settings::{Prior, Settings};
+pub use work::{Due, Work, Worked};

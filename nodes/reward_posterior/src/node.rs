@@ -1,6 +1,6 @@
 //! The node as a state machine: evidence in; receipts, the log of evidence and posteriors out.
 
-use crate::inference::{evidence_hash, infer, model};
+use crate::inference::{evidence_hash, model};
 use crate::journal::Entry;
 use crate::message::posterior_message;
 use crate::piece::Piece;
@@ -8,6 +8,7 @@ use crate::preview::{Sampled, preview};
 use crate::receive::{Open, Verdict, judge};
 use crate::subject::Elsewhere;
 use crate::waiting::Waiting;
+use crate::work::{Due, Work, Worked};
 use crate::{Evidence, Settings};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
@@ -18,6 +19,7 @@ use apprentice_msgs::msg::{
 use apprentice_msgs::std_msgs::Header;
 use exchange::{MAX_ID, world_from_message};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// Questions remembered as asked before.
 const MAX_KNOWN: usize = 1000;
@@ -47,8 +49,10 @@ pub enum Event {
     Query(Box<PlacementQuery>),
     /// A question about a world was asked.
     WorldQuery(Box<WorldQuery>),
-    /// Time to compute what [`Output::Recompute`] asked for.
+    /// Time to compute what [`Output::Recompute`] asked for, here and now.
     Recompute,
+    /// A posterior was computed elsewhere.
+    Worked(Box<Worked>),
     /// Once a second.
     Tick,
 }
@@ -183,6 +187,7 @@ impl RewardPosterior {
                 self.look_again()
             }
             Event::Recompute => self.recompute(),
+            Event::Worked(worked) => self.worked(*worked),
             Event::Tick => self.tick(),
         }
     }
@@ -294,23 +299,71 @@ impl RewardPosterior {
     }
 
     fn recompute(&mut self) -> Vec<Output> {
+        match self.due() {
+            Due::Nothing => Vec::new(),
+            Due::Preview(preview) => vec![*preview, Output::Recompute],
+            Due::Posterior(work) => self.worked(work.run(&AtomicBool::new(false))),
+        }
+    }
+
+    /// What is to be done about the evidence that came since the newest posterior.
+    pub fn due(&mut self) -> Due {
         let revision = self.evidence.revision();
         if !self.evidence.weights().are_known()
             || self.newest.as_ref().is_some_and(|newest| newest.revision == revision)
         {
-            return Vec::new();
+            return Due::Nothing;
         }
-        // A preview goes out first; the draws themselves never depend on it.
-        if self.previewed != Some(revision)
-            && let Some(output) = self.preview(&self.evidence)
-        {
-            self.previewed = Some(revision);
-            return vec![output, Output::Recompute];
+        match self.preview_due() {
+            Some(preview) => Due::Preview(Box::new(preview)),
+            None => Due::Posterior(Box::new(self.work())),
         }
-        match self.compute() {
-            Ok(message) => vec![Output::Posterior(message)],
-            Err(reason) => vec![Output::Warn(format!("no posterior: {reason}"))],
+    }
+
+    /// The preview of the newest revision, once.
+    pub fn preview_due(&mut self) -> Option<Output> {
+        let revision = self.evidence.revision();
+        if self.previewed == Some(revision) {
+            return None;
         }
+        let preview = self.preview(&self.evidence)?;
+        self.previewed = Some(revision);
+        Some(preview)
+    }
+
+    fn work(&self) -> Work {
+        let digest = evidence_hash(&self.evidence);
+        let known = self.sampled.as_ref().filter(|sampled| sampled.hash == hex(&digest));
+        Work {
+            settings: self.settings.clone(),
+            evidence: self.evidence.clone(),
+            digest,
+            known: known.map(|sampled| sampled.draws.clone()),
+        }
+    }
+
+    /// Whether these draws would be those of the newest revision: a skipped question changes nothing that they depend on.
+    pub fn wants(&self, digest: &[u8; 32]) -> bool {
+        evidence_hash(&self.evidence) == *digest
+    }
+
+    /// Takes a posterior that was computed. One of other evidence is of no use: what would be asked by it could not be answered.
+    fn worked(&mut self, worked: Worked) -> Vec<Output> {
+        if !self.wants(&worked.digest) {
+            return vec![Output::Recompute];
+        }
+        vec![match self.take(worked) {
+            Ok(message) => Output::Posterior(message),
+            Err(reason) => Output::Warn(format!("no posterior: {reason}")),
+        }]
+    }
+
+    fn take(&mut self, worked: Worked) -> Result<Box<Posterior>, String> {
+        let (hash, draws) = (hex(&worked.digest), worked.draws?);
+        let message = Box::new(posterior_message(&self.settings, &self.evidence, hash.clone(), &draws));
+        self.sampled = Some(Sampled { hash, evidence: self.evidence.clone(), draws });
+        self.newest = Some(message.clone());
+        Ok(message)
     }
 
     /// The posterior of the newest revision. `None` while nothing has said how many weights there are.
@@ -318,21 +371,11 @@ impl RewardPosterior {
     /// # Errors
     /// Why there is none.
     pub fn posterior(&mut self) -> Result<Option<Posterior>, String> {
-        if self.evidence.weights().are_known() { self.compute().map(|message| Some(*message)) } else { Ok(None) }
-    }
-
-    fn compute(&mut self) -> Result<Box<Posterior>, String> {
-        let digest = evidence_hash(&self.evidence);
-        let hash = hex(&digest);
-        let draws = match self.sampled.take() {
-            // A skipped question changes nothing that the draws depend on.
-            Some(sampled) if sampled.hash == hash => sampled.draws,
-            _ => infer(&self.settings, &self.evidence, &digest)?,
-        };
-        let message = Box::new(posterior_message(&self.settings, &self.evidence, hash.clone(), &draws));
-        self.sampled = Some(Sampled { hash, evidence: self.evidence.clone(), draws });
-        self.newest = Some(message.clone());
-        Ok(message)
+        if !self.evidence.weights().are_known() {
+            return Ok(None);
+        }
+        let worked = self.work().run(&AtomicBool::new(false));
+        self.take(worked).map(|message| Some(*message))
     }
 
     /// The preview that goes out when the records come after the newest posterior.

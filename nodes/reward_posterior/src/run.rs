@@ -1,11 +1,15 @@
 //! The node on the graph, and its journal on disk.
 
 use crate::journal::{MAGIC, read_journal};
-use crate::{Event, Output, RewardPosterior, Settings};
+use crate::{Due, Event, Output, RewardPosterior, Settings, Work, Worked};
 use apprentice_msgs::msg::{EvidenceLog, EvidenceReceipt, Posterior, PosteriorPreview, TabularWorld};
-use bus::{Arguments, Bus, Graph, Level, NodeError, Publisher, Qos};
+use bus::{Arguments, Bus, EventSender, Graph, Level, NodeError, Publisher, Qos};
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Sender, channel};
 use std::time::Duration;
 
 /// A journal above this is not read.
@@ -52,11 +56,53 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
         Ok(())
     };
     send(&bus, restored)?;
+    let sampler = sampler(bus.sender())?;
+    let mut sampling: Option<([u8; 32], Arc<AtomicBool>)> = None;
     while let Some((now, event)) = bus.next() {
-        let outputs = node.step(now, event);
+        let outputs = match (event, &sampling) {
+            // Whoever says something while a posterior is computed is answered at once, and is not kept waiting for what is outdated.
+            (Event::Recompute, Some((digest, stop))) => {
+                stop.fetch_or(!node.wants(digest), Ordering::Relaxed);
+                node.preview_due().into_iter().collect()
+            }
+            (Event::Recompute, None) => match node.due() {
+                Due::Nothing => Vec::new(),
+                Due::Preview(preview) => vec![*preview, Output::Recompute],
+                Due::Posterior(work) => {
+                    let stop = Arc::new(AtomicBool::new(false));
+                    sampling = Some((work.digest, Arc::clone(&stop)));
+                    sampler.send((work, stop)).map_err(|_| NodeError::Failed("sampling has ended".into()))?;
+                    Vec::new()
+                }
+            },
+            (Event::Worked(worked), stopped) => {
+                let is_given_up = stopped.as_ref().is_some_and(|(_, stop)| stop.load(Ordering::Relaxed));
+                sampling = None;
+                if is_given_up { vec![Output::Recompute] } else { node.step(now, Event::Worked(worked)) }
+            }
+            (event, _) => node.step(now, event),
+        };
         send(&bus, outputs)?;
     }
     Ok(())
+}
+
+/// A thread that computes one posterior after the other.
+fn sampler(events: EventSender<Event>) -> Result<Sender<(Box<Work>, Arc<AtomicBool>)>, NodeError> {
+    let (work, received) = channel::<(Box<Work>, Arc<AtomicBool>)>();
+    let compute = move || {
+        for (work, stop) in received {
+            let digest = work.digest;
+            let worked = catch_unwind(AssertUnwindSafe(|| work.run(&stop))).unwrap_or_else(|_| Worked {
+                digest,
+                draws: Err("sampling ended in an error of its own; the log of the node says which".into()),
+            });
+            events.send(Event::Worked(Box::new(worked)));
+        }
+    };
+    let thread = std::thread::Builder::new().name("sampling".into()).spawn(compute);
+    thread.map_err(|error| NodeError::Start(format!("posteriors cannot be computed: {error}")))?;
+    Ok(work)
 }
 
 struct Out {

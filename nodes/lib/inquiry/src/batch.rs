@@ -1,8 +1,7 @@
 //! Several questions at once, and the next one for every possible answer, so that the person never waits.
 
-use crate::select::{select_by, select_under};
-use crate::strategy::scores;
-use crate::{Belief, Chosen, InquiryError, Round, Selecting, Selection};
+use crate::select::select_under;
+use crate::{Belief, Branches, Chosen, InquiryError, Round, Selecting, Selection};
 
 /// Combinations of answers that are followed, at most: the most probable ones.
 const MAX_BRANCHES: usize = 64;
@@ -17,43 +16,18 @@ const MAX_BRANCHES: usize = 64;
 pub fn batch(round: &Round, selecting: &Selecting, look: u64, n: usize) -> Result<Vec<Chosen>, InquiryError> {
     let mut chosen: Vec<Chosen> = Vec::new();
     let mut asked: Vec<usize> = Vec::new();
-    let mut branches = vec![(1.0, round.belief.clone())];
+    let mut branches = Branches::now(round.belief.clone());
     while chosen.len() < n {
-        let mut expected = vec![0.0; round.questions.len()];
-        for (probability, belief) in &branches {
-            for (sum, score) in expected.iter_mut().zip(scores(round, belief, selecting.strategy)?) {
-                *sum += probability * score;
-            }
-        }
         // Every question of a batch draws its own lot.
         let lot = look.wrapping_add((chosen.len() as u64) << 32);
-        let Selection::Ask(next) = select_by(round, &expected, selecting, lot, &asked)? else { break };
+        let Selection::Ask(next) = branches.select(round, selecting, lot, &asked)? else { break };
         asked.push(next.question);
         chosen.push(next);
         if chosen.len() < n {
-            branches = answered(round, branches, next.question);
+            branches = branches.after(&round.questions[next.question].answers, MAX_BRANCHES);
         }
     }
     Ok(chosen)
-}
-
-/// Every branch continued by every answer to a question.
-fn answered(round: &Round, branches: Vec<(f64, Belief)>, question: usize) -> Vec<(f64, Belief)> {
-    let mut next: Vec<(f64, Belief)> = Vec::new();
-    for (probability, belief) in &branches {
-        round.questions[question].answers.for_each(|_, p| {
-            let of_answer = belief.mean(p);
-            if let Some(after) = belief.after(p).filter(|_| of_answer > 0.0) {
-                next.push((probability * of_answer, after));
-            }
-        });
-        // Few at any time; the sort is stable, so equals stay in order.
-        next.sort_by(|a, b| b.0.total_cmp(&a.0));
-        next.truncate(MAX_BRANCHES);
-    }
-    let total: f64 = next.iter().map(|branch| branch.0).sum();
-    next.iter_mut().for_each(|branch| branch.0 /= total);
-    next
 }
 
 /// The next question for an answer that may come.

@@ -29,7 +29,7 @@ pub use likelihood::placements::{
 pub use model::{EvidenceKind, MAX_FEATURES, Model, ModelError, ModelEvaluator, Rationality, Term, TermLikelihood};
 pub use placement_term::PlacementTerm;
 pub use reweight::log_weights;
-pub use sampler::{draw, draw_from};
+pub use sampler::{draw, draw_from, draw_unless};
 pub use settings::{
     BETA_RANGE, CHAINS_RANGE, DRAWS_PER_CHAIN_RANGE, FACTOR_RANGE, Prior, Run, Settings, SettingsError, THREADS_RANGE,
     WARMUP_RANGE,

@@ -9,6 +9,7 @@ use crate::map::most_probable;
 use crate::random::chain_generator;
 use crate::warmup::{DualAveraging, pooled_scale};
 use crate::{Draws, Model, ModelError, PosteriorError, Run};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Step size to start the search with.
 const FIRST_STEP: f64 = 0.1;
@@ -44,11 +45,26 @@ pub fn draw_from(
     evidence: &[u8; 32],
     warm: Option<&Warm>,
 ) -> Result<Draws, PosteriorError> {
+    draw_unless(&AtomicBool::new(false), model, run, seed, evidence, warm)
+}
+
+/// The same, but given up soon after somebody sets `stop`: they know by then that the draws are not wanted.
+///
+/// # Errors
+/// As [`draw`]; [`PosteriorError::Stopped`].
+pub fn draw_unless(
+    stop: &AtomicBool,
+    model: &Model<'_>,
+    run: &Run,
+    seed: u64,
+    evidence: &[u8; 32],
+    warm: Option<&Warm>,
+) -> Result<Draws, PosteriorError> {
     run.check()?;
     model.check()?;
     let sampled = match CollapsedDensity::plan(model) {
-        Some(plan) => sample(run, seed, evidence, warm, || CollapsedDensity::new(model, &plan)),
-        None => sample(run, seed, evidence, warm, || FullDensity::new(model)),
+        Some(plan) => sample(stop, run, seed, evidence, warm, || CollapsedDensity::new(model, &plan)),
+        None => sample(stop, run, seed, evidence, warm, || FullDensity::new(model)),
     };
     let (kept, acceptance, warm) = sampled?;
     let log_likelihood: Vec<f64> = kept.iter().flat_map(|kept| kept.log_likelihood.iter().copied()).collect();
@@ -95,6 +111,7 @@ struct Runner<D> {
 
 /// Warms all chains up and lets them run: what each kept, the sum of acceptance probabilities, and a start for later.
 fn sample<D: Density>(
+    stop: &AtomicBool,
     run: &Run,
     seed: u64,
     evidence: &[u8; 32],
@@ -132,8 +149,11 @@ fn sample<D: Density>(
     for (twentieths, max_steps) in rounds {
         let length = run.warmup * twentieths / 20;
         in_parallel(&mut runners, run.threads, |runner| {
-            runner.explore(length, &scale, Acceptance::Coarse, *max_steps);
+            runner.explore(stop, length, &scale, Acceptance::Coarse, *max_steps);
         });
+        if stop.load(Ordering::Relaxed) {
+            return Err(PosteriorError::Stopped);
+        }
         let positions: Vec<Vec<f64>> = runners.iter_mut().map(|r| std::mem::take(&mut r.positions)).collect();
         // Without any movement there is no covariance: keep the old one and let the diagnostics tell.
         scale = pooled_scale(&positions, n).unwrap_or(scale);
@@ -143,12 +163,15 @@ fn sample<D: Density>(
     }
     in_parallel(&mut runners, run.threads, |runner| {
         runner.chain.refresh_exact();
-        runner.explore(run.warmup / 5, &scale, Acceptance::Exact, MAX_STEPS);
+        runner.explore(stop, run.warmup / 5, &scale, Acceptance::Exact, MAX_STEPS);
     });
     // One step size for all: chains that differ in it would differ in what they can reach.
     let log_steps: f64 = runners.iter().map(|r| libm::log(r.step.averaged())).sum();
     let step_size = libm::exp(log_steps / runners.len() as f64);
-    in_parallel(&mut runners, run.threads, |runner| runner.keep(run.per_chain(), step_size, &scale));
+    in_parallel(&mut runners, run.threads, |runner| runner.keep(stop, run.per_chain(), step_size, &scale));
+    if stop.load(Ordering::Relaxed) {
+        return Err(PosteriorError::Stopped);
+    }
     let acceptance = runners.iter().map(|runner| runner.acceptance).sum();
     let positions = runners.iter().map(|runner| runner.chain.z.clone()).collect();
     let kept = runners.into_iter().map(|runner| runner.kept).collect();
@@ -157,8 +180,8 @@ fn sample<D: Density>(
 
 impl<D: Density> Runner<D> {
     /// Warm-up: adapts the step size, and remembers positions of the later half.
-    fn explore(&mut self, length: usize, scale: &[f64], acceptance: Acceptance, max_steps: usize) {
-        for i in 0..length {
+    fn explore(&mut self, stop: &AtomicBool, length: usize, scale: &[f64], acceptance: Acceptance, max_steps: usize) {
+        for i in (0..length).take_while(|_| !stop.load(Ordering::Relaxed)) {
             let accepted = self.chain.advance(self.step.step_size(), scale, acceptance, max_steps);
             self.step.update(accepted);
             if i >= length / 2 {
@@ -167,9 +190,9 @@ impl<D: Density> Runner<D> {
         }
     }
 
-    fn keep(&mut self, length: usize, step_size: f64, scale: &[f64]) {
+    fn keep(&mut self, stop: &AtomicBool, length: usize, step_size: f64, scale: &[f64]) {
         let n_jumps = if self.chain.force_is_exact() { JUMPS_EXACT } else { JUMPS_COARSE };
-        for _ in 0..length {
+        for _ in (0..length).take_while(|_| !stop.load(Ordering::Relaxed)) {
             self.acceptance += self.chain.advance(step_size, scale, Acceptance::Exact, MAX_STEPS);
             for _ in 0..n_jumps {
                 self.chain.jump(scale);

@@ -19,6 +19,9 @@ pub enum PosteriorError {
     /// A model that does not fit together.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// Given up, as was asked.
+    #[error("sampling was given up because its draws were no longer wanted")]
+    Stopped,
 }
 
 /// Draws from the posterior of the weights given `demonstrations`, all about the same `lesson`.

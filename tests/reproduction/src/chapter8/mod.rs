@@ -40,4 +40,6 @@ pub mod purpose {
     pub const PERSON: u32 = 3;
     /// Tables to test on.
     pub const TESTS: u32 = 4;
+    /// Chains that are longer because shorter ones gave no bound.
+    pub const MORE_CHAINS: u32 = 5;
 }

@@ -53,6 +53,14 @@ pub struct TableStep {
     pub choosing_s: f64,
 }
 
+impl TableStep {
+    /// Takes the bound from more draws, and with it how far the robot errs that goes by them. The curve of the lesson stays one of
+    /// few draws.
+    fn bounded_by(&mut self, more: &Self) {
+        (self.bound_m, self.quantile_m, self.worst_m) = (more.bound_m, more.quantile_m, more.worst_m);
+    }
+}
+
 /// How much work to do.
 #[derive(Debug, Clone, Copy)]
 pub struct Extent {
@@ -66,8 +74,10 @@ pub struct Extent {
     pub bounded_after: &'static [usize],
     /// Draws to choose a question by, over four chains.
     pub n_draws: usize,
-    /// Draws for a bound.
+    /// Draws for a bound, and four times as many, up to `most_draws_bounded`, for as long as a table has none.
     pub n_draws_bounded: usize,
+    /// Draws after which a lesson stays without a bound.
+    pub most_draws_bounded: usize,
 }
 
 impl Extent {
@@ -245,6 +255,7 @@ pub fn hold_table(
     let task = first.task;
     let mut rng = generator(seed, trial, purpose::QUESTIONS);
     let mut chains = generator(seed, trial, purpose::CHAINS);
+    let mut more_chains = generator(seed, trial, purpose::MORE_CHAINS);
     let mut shown: Vec<(Scene, Point)> = shown_first(task).into_iter().collect();
     let mut steps = Vec::with_capacity(extent.n_questions + 1);
     let mut learned = None;
@@ -252,6 +263,12 @@ pub fn hold_table(
         let known = learned.as_ref().unwrap_or(first);
         let is_bounded = extent.bounded_after.contains(&n_asked);
         let mut step = known.examine(tests, if is_bounded { extent.n_bounded } else { 0 })?;
+        let mut n_draws = extent.n_draws_bounded;
+        while is_bounded && step.bound_m.is_none() && 4 * n_draws <= extent.most_draws_bounded {
+            n_draws *= 4;
+            let more = Known::new(task, &shown, n_draws, more_chains.next_u64())?;
+            step.bounded_by(&more.examine(tests, extent.n_bounded)?);
+        }
         step.demonstrations = n_asked + 1;
         if n_asked < extent.n_questions {
             let begin = cpu_seconds();
