@@ -62,7 +62,7 @@ pub fn world_question(
     if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() {
         return Ok(None);
     }
-    let query = ask(settings, inputs, 1)?.pop();
+    let query = ask(settings, inputs, None, 1)?.pop();
     Ok(query.map(|query| {
         let questions_asked = lesson.questions_asked.saturating_add(1);
         let lesson = LessonStatus { query_id: query.id.clone(), questions_asked, ..lesson.clone() };
@@ -70,9 +70,9 @@ pub fn world_question(
     }))
 }
 
-/// The question to ask while the lesson goes on, as [`world_question`] has it, and at most `n` more to ask after it if the robot has
-/// not learned from the answers by then: each is chosen by what is expected once those before it are answered, and is of
-/// the revision that their answers make.
+/// The open question and at most `n` more to ask after it if the robot has not learned from the answers by then: each is chosen by what
+/// is expected once those before it are answered, and is of the revision that their answers make. The open one is `open`, which was
+/// asked before the posterior came, or what [`world_question`] has.
 ///
 /// # Errors
 /// As [`world_question`].
@@ -80,15 +80,21 @@ pub fn questions_ahead(
     settings: &Settings,
     inputs: &WorldInputs<'_>,
     lesson: &LessonStatus,
+    open: Option<&WorldQuery>,
     n: usize,
 ) -> Result<Vec<WorldQuery>, String> {
     if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() {
         return Ok(Vec::new());
     }
-    ask(settings, inputs, 1 + n)
+    ask(settings, inputs, open, 1 + n)
 }
 
-fn ask(settings: &Settings, inputs: &WorldInputs<'_>, n_questions: usize) -> Result<Vec<WorldQuery>, String> {
+fn ask(
+    settings: &Settings,
+    inputs: &WorldInputs<'_>,
+    open: Option<&WorldQuery>,
+    n_questions: usize,
+) -> Result<Vec<WorldQuery>, String> {
     let WorldInputs { posterior, world, log, .. } = *inputs;
     check_posterior(posterior).map_err(|error| error.to_string())?;
     let (mdp, k) = (&world.mdp, world.feature_names.len());
@@ -121,14 +127,23 @@ fn ask(settings: &Settings, inputs: &WorldInputs<'_>, n_questions: usize) -> Res
     let ways = Ways { mdp, map: &map, optima: &optima, steps, seed: settings.seed.unsigned_abs(), stream };
     let mut branches = Branches::now(scoring.belief().map_err(wrong)?);
     let mut queries: Vec<WorldQuery> = Vec::new();
-    while queries.len() < n_questions {
-        let Some(found) = scoring.choose(&ways, &situations, &rests, &branches).map_err(wrong)? else { break };
-        if queries.len() + 1 < n_questions {
-            rests.answer(found.subject.kind, found.subject.state);
-            branches = branches.after(&scoring.answers(&found.subject).map_err(wrong)?, MAX_BRANCHES);
+    let mut last = open.map(|query| (Subject::of(query), query.clone()));
+    loop {
+        let (subject, query) = match last.take() {
+            Some(open) => open,
+            None => {
+                let Some(found) = scoring.choose(&ways, &situations, &rests, &branches).map_err(wrong)? else { break };
+                let subject = found.subject.clone();
+                let is_first_left = uniform(&mut rng) >= 0.5;
+                (subject, scoring.query(found, situations.len(), queries.len(), is_first_left)?)
+            }
+        };
+        queries.push(query);
+        if queries.len() >= n_questions {
+            break;
         }
-        let is_first_left = uniform(&mut rng) >= 0.5;
-        queries.push(scoring.query(found, situations.len(), queries.len(), is_first_left)?);
+        rests.answer(subject.kind, subject.state);
+        branches = branches.after(&scoring.answers(&subject).map_err(wrong)?, MAX_BRANCHES);
     }
     Ok(queries)
 }

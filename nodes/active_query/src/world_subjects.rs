@@ -1,6 +1,7 @@
 //! What could be asked about a world: states that the robot may come to, and ways from there.
 
 use crate::settings::QuestionKind;
+use apprentice_msgs::msg::WorldQuery;
 use inquiry::DrawnOptima;
 use inquiry::tabular::discounted_features;
 use mdp::random::index;
@@ -29,6 +30,27 @@ pub(crate) struct Subject {
     pub state: usize,
     /// None for an action, one for a critique, two for a comparison.
     pub ways: Vec<Way>,
+}
+
+impl Subject {
+    /// What a question asks about. Only [`Subject::situation`] is not known from it.
+    pub fn of(query: &WorldQuery) -> Self {
+        let place = |n: u32| n as usize;
+        Self {
+            kind: match query.kind {
+                WorldQuery::ACTION => QuestionKind::Action,
+                WorldQuery::CRITIQUE => QuestionKind::Critique,
+                _ => QuestionKind::Comparison,
+            },
+            situation: 0,
+            state: place(query.state),
+            ways: query
+                .trajectories
+                .iter()
+                .map(|way| way.states.iter().zip(&way.actions).map(|(s, a)| (place(*s), place(*a))).collect())
+                .collect(),
+        }
+    }
 }
 
 /// States in which there is something to do and that the robot can come to at all, ascending; of very many some by lot.

@@ -68,7 +68,11 @@ impl Worlds {
             && let Some(with_question) = self.asked_ahead(&lesson)
         {
             self.known = Some(lesson);
-            return vec![Output::Lesson(with_question)];
+            // What may follow is chosen by what is known now.
+            let open = self.query.as_deref().filter(|open| open.id == with_question.query_id);
+            self.ahead = open.cloned().map(Ahead::new).or(self.ahead.take());
+            let looks = open.map(|_| Output::LookAhead);
+            return std::iter::once(Output::Lesson(with_question)).chain(looks).collect();
         }
         let mut asked = Ok(None);
         if lesson.state == LessonStatus::ASKING && !settings.question_kinds.is_empty() {
@@ -128,7 +132,8 @@ impl Worlds {
         }
         let n = usize::try_from(settings.questions_ahead).unwrap_or(0);
         // What cannot be asked was told of when the open question was chosen.
-        let queries = questions_ahead(settings, &inputs, lesson, n).unwrap_or_default();
+        let open = Some(open).filter(|open| open.ahead > 0);
+        let queries = questions_ahead(settings, &inputs, lesson, open, n).unwrap_or_default();
         if let Some(ahead) = &mut self.ahead {
             ahead.follow(queries);
         }

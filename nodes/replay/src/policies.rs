@@ -84,9 +84,14 @@ fn asked_ahead(recording: &Recording, lesson: &Lesson, revision: u64) -> Vec<Wor
     let mut found = Vec::new();
     for place in places {
         let Some(base) = revision.checked_sub(u64::from(place)) else { continue };
+        // The question that was open then may have been asked ahead, too; it is compared at its own revision.
+        let asked = recording.world_query.get(&base).into_iter().flatten();
+        let asked: Vec<&WorldQuery> = asked.map(|(query, _)| query).filter(|query| query.ahead > 0).collect();
         for (inputs, state) in judged(recording, lesson, base) {
-            let all = inputs.and_then(|inputs| questions_ahead(settings, &inputs, &state, n).ok());
-            found.extend(all.and_then(|all| all.into_iter().nth(place as usize)));
+            for open in std::iter::once(None).chain(asked.iter().copied().map(Some)) {
+                let all = inputs.and_then(|inputs| questions_ahead(settings, &inputs, &state, open, n).ok());
+                found.extend(all.and_then(|all| all.into_iter().nth(place as usize)));
+            }
         }
     }
     found

@@ -151,7 +151,8 @@ fn a_question_that_was_asked_ahead_follows_from_the_posterior_that_it_names() {
     let bounds = &recording.policy_bounds[&1][0].0;
     let state = active_query::world_lesson(&settings, posterior, bounds).expect("it is about a world");
     let inputs = active_query::WorldInputs { posterior, world: &of, log, bounds };
-    let asked = active_query::questions_ahead(&settings, &inputs, &state, 3).expect("it fits together").swap_remove(1);
+    let asked =
+        active_query::questions_ahead(&settings, &inputs, &state, None, 3).expect("it fits together").swap_remove(1);
     assert_eq!((asked.revision, asked.ahead), (2, 1));
     let later = recording.lesson[&2][0].0.clone();
     let stays = LessonStatus { query_id: asked.id.clone(), ..later };

@@ -19,7 +19,6 @@ use apprentice_msgs::msg::{
 use apprentice_msgs::std_msgs::Header;
 use exchange::{MAX_ID, world_from_message};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// Questions remembered as asked before.
 const MAX_KNOWN: usize = 1000;
@@ -302,7 +301,7 @@ impl RewardPosterior {
         match self.due() {
             Due::Nothing => Vec::new(),
             Due::Preview(preview) => vec![*preview, Output::Recompute],
-            Due::Posterior(work) => self.worked(work.run(&AtomicBool::new(false))),
+            Due::Posterior(work) => self.worked(work.run()),
         }
     }
 
@@ -339,6 +338,7 @@ impl RewardPosterior {
             evidence: self.evidence.clone(),
             digest,
             known: known.map(|sampled| sampled.draws.clone()),
+            stop: Arc::default(),
         }
     }
 
@@ -374,7 +374,7 @@ impl RewardPosterior {
         if !self.evidence.weights().are_known() {
             return Ok(None);
         }
-        let worked = self.work().run(&AtomicBool::new(false));
+        let worked = self.work().run();
         self.take(worked).map(|message| Some(*message))
     }
 

@@ -69,9 +69,8 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Due::Nothing => Vec::new(),
                 Due::Preview(preview) => vec![*preview, Output::Recompute],
                 Due::Posterior(work) => {
-                    let stop = Arc::new(AtomicBool::new(false));
-                    sampling = Some((work.digest, Arc::clone(&stop)));
-                    sampler.send((work, stop)).map_err(|_| NodeError::Failed("sampling has ended".into()))?;
+                    sampling = Some((work.digest, Arc::clone(&work.stop)));
+                    sampler.send(work).map_err(|_| NodeError::Failed("sampling has ended".into()))?;
                     Vec::new()
                 }
             },
@@ -88,12 +87,12 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
 }
 
 /// A thread that computes one posterior after the other.
-fn sampler(events: EventSender<Event>) -> Result<Sender<(Box<Work>, Arc<AtomicBool>)>, NodeError> {
-    let (work, received) = channel::<(Box<Work>, Arc<AtomicBool>)>();
+fn sampler(events: EventSender<Event>) -> Result<Sender<Box<Work>>, NodeError> {
+    let (work, received) = channel::<Box<Work>>();
     let compute = move || {
-        for (work, stop) in received {
+        for work in received {
             let digest = work.digest;
-            let worked = catch_unwind(AssertUnwindSafe(|| work.run(&stop))).unwrap_or_else(|_| Worked {
+            let worked = catch_unwind(AssertUnwindSafe(|| work.run())).unwrap_or_else(|_| Worked {
                 digest,
                 draws: Err("sampling ended in an error of its own; the log of the node says which".into()),
             });

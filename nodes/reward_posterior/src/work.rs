@@ -3,6 +3,7 @@
 use crate::inference::infer;
 use crate::{Evidence, Settings};
 use posterior::Draws;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// A posterior to be computed, of the evidence as it stood when it became due.
@@ -14,6 +15,8 @@ pub struct Work {
     pub(crate) digest: [u8; 32],
     /// The draws, where they are at hand.
     pub(crate) known: Option<Draws>,
+    /// Set when the draws are not wanted any more, which is for when there is newer evidence.
+    pub(crate) stop: Arc<AtomicBool>,
 }
 
 /// What came of it.
@@ -26,13 +29,13 @@ pub struct Worked {
 }
 
 impl Work {
-    /// Computes it: a function of settings and evidence alone, wherever and whenever it runs. It is given up soon after `stop`
-    /// is set, which is for when there is newer evidence.
-    pub fn run(self, stop: &AtomicBool) -> Worked {
-        let Self { settings, evidence, digest, known } = self;
+    /// Computes it: a function of settings and evidence alone, wherever and whenever it runs. It is given up soon after it is
+    /// stopped.
+    pub fn run(self) -> Worked {
+        let Self { settings, evidence, digest, known, stop } = self;
         let draws = match known {
             Some(draws) => Ok(draws),
-            None => infer(stop, &settings, &evidence, &digest),
+            None => infer(&stop, &settings, &evidence, &digest),
         };
         Worked { digest, draws }
     }
