@@ -426,6 +426,7 @@ uint8 STOPPED=2                  # the person said that nothing is acceptable
 uint8 GAVE_UP=3                  # max_questions asked and still not taught
 uint8 PAUSED=4                   # nothing is asked until the person says start
 uint8 FINISHED=5                 # the person had said enough, and the bound is not below epsilon
+uint8 MISFIT=6                   # what was said cannot be explained with these features: more answers will not help
 
 std_msgs/Header header
 uint64 revision
@@ -439,6 +440,10 @@ float64 bound_m                  # NaN without one
 float64 epsilon_m
 float64 loss_bound               # about a world: bound on the normalised loss of the robot's policy; NaN without one
 float64 epsilon_loss             # the lesson about a world ends below it; NaN when it is about a table
+uint32 held_out                  # about a world: answers to questions that were drawn at random
+uint32 surprises                 # of these, how many were not expected; 1 in 10 is by chance
+float64 misfit_p                 # about a world: how probable answers as odd as those given are; NaN where that was not reckoned
+string[] misfits                 # when the state is MISFIT: ids of the evidence that fits worst
 "#),
     ("apprentice_msgs/msg/NodeSettings", r#"# What a node was started with; a replay starts it the same way.
 string node                      # executable's name of the node

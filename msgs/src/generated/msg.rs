@@ -410,6 +410,14 @@ pub struct LessonStatus {
     pub loss_bound: f64,
     /// the lesson about a world ends below it; NaN when it is about a table (`float64`)
     pub epsilon_loss: f64,
+    /// about a world: answers to questions that were drawn at random (`uint32`)
+    pub held_out: u32,
+    /// of these, how many were not expected; 1 in 10 is by chance (`uint32`)
+    pub surprises: u32,
+    /// about a world: how probable answers as odd as those given are; NaN where that was not reckoned (`float64`)
+    pub misfit_p: f64,
+    /// when the state is MISFIT: ids of the evidence that fits worst (`string[]`)
+    pub misfits: Vec<std::string::String>,
 }
 
 impl LessonStatus {
@@ -425,6 +433,8 @@ impl LessonStatus {
     pub const PAUSED: u8 = 4;
     /// the person had said enough, and the bound is not below epsilon
     pub const FINISHED: u8 = 5;
+    /// what was said cannot be explained with these features: more answers will not help
+    pub const MISFIT: u8 = 6;
 }
 
 impl crate::Message for LessonStatus {

@@ -1,6 +1,7 @@
 //! Questions that were chosen while the person thought, for when the robot has not learned from the last answer in time.
 
-use apprentice_msgs::msg::{EvidenceLog, EvidenceRecord, QueryResponse, WorldQuery};
+use crate::world_rests::{question_answered, question_skipped};
+use apprentice_msgs::msg::{EvidenceLog, WorldQuery};
 
 /// The open question with those that may follow it, and how long the person has waited for the next.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +38,10 @@ impl Ahead {
         let before = usize::try_from(self.queries[0].revision).ok()?;
         let answers = log.records.get(before..)?;
         let is_answered = answers.len() == self.asked
-            && answers.iter().zip(&self.queries).all(|(record, query)| answered(record) == Some(&query.id));
+            && answers
+                .iter()
+                .zip(&self.queries)
+                .all(|(record, query)| question_answered(record).or(question_skipped(record)) == Some(&query.id));
         if !is_answered {
             self.waited = 0;
             return None;
@@ -48,17 +52,6 @@ impl Ahead {
         self.waited = 0;
         Some(next)
     }
-}
-
-/// The question that a record answers, or skips.
-fn answered(record: &EvidenceRecord) -> Option<&String> {
-    let passed = [QueryResponse::SKIP, QueryResponse::CANT_TELL];
-    let id = None
-        .or(record.actions.first().map(|m| &m.query_id))
-        .or(record.preference.first().map(|m| &m.query_id))
-        .or(record.critique.first().map(|m| &m.query_id))
-        .or(record.response.first().filter(|m| passed.contains(&m.kind)).map(|m| &m.query_id));
-    id.filter(|id| !id.is_empty())
 }
 
 #[cfg(test)]

@@ -181,6 +181,8 @@ impl ActiveQuery {
             epsilon_m,
             loss_bound: f64::NAN,
             epsilon_loss: f64::NAN,
+            misfit_p: f64::NAN,
+            ..LessonStatus::default()
         };
         let (mut query, mut warnings) = (None, Vec::new());
         // Without a demonstration there is nothing the person has agreed to, whatever the prior says.

@@ -56,6 +56,8 @@ pub struct Settings {
     pub trajectory_steps: i64,
     /// Share of the questions about a world that are drawn at random, whatever the strategy.
     pub hold_out_share: f64,
+    /// Level at which answers that do not fit end a lesson about a world; 0: none do.
+    pub misfit_level: f64,
     /// Questions after which the lesson is given up.
     pub max_questions: i64,
     /// After so many seconds a question about a world is asked that does not know of the newest answer; 0: never.
@@ -79,6 +81,7 @@ impl Default for Settings {
             question_kinds: vec![QuestionKind::Action, QuestionKind::Critique, QuestionKind::Comparison],
             trajectory_steps: 8,
             hold_out_share: 0.1,
+            misfit_level: 0.002,
             max_questions: 60,
             next_within_s: 1.0,
             questions_ahead: 3,
@@ -134,6 +137,12 @@ impl NodeSettings for Settings {
             name: "hold_out_share",
             about: "share of the questions about a world that are drawn at random, whatever the strategy",
             range: Range::Float { min: 0.0, max: 0.9 },
+        },
+        ParameterSpec {
+            name: "misfit_level",
+            about: "a lesson about a world ends when answers as odd as those given are less probable than this under the rewards that fit, or \
+                    surprises among the answers to random questions are; 0: never",
+            range: Range::Float { min: 0.0, max: 0.5 },
         },
         ParameterSpec {
             name: "max_questions",

@@ -67,6 +67,8 @@ pub fn world_lesson(settings: &Settings, posterior: &Posterior, bounds: &PolicyB
         epsilon_m: f64::NAN,
         loss_bound: if known { loss.bound } else { f64::NAN },
         epsilon_loss: goal,
+        misfit_p: f64::NAN,
+        ..LessonStatus::default()
     })
 }
 

@@ -1,13 +1,14 @@
 //! Which question about a world is asked (dissertation chapter 8): a function of settings, posterior, world, evidence and bounds.
 
 use crate::settings::{QuestionKind, Settings, Strategy};
+use crate::world_draws::WorldDraws;
 use crate::world_rests::{Rests, world_query_id};
 use crate::world_subjects::{Subject, Ways, situations};
 use crate::world_words::{self, Why};
 use apprentice_msgs::msg::{
     EvidenceLog, LessonStatus, PolicyBounds, Posterior, RiskBound, WorldQuery, WorldTrajectory,
 };
-use exchange::{ROBUST_POLICY, World, check_posterior};
+use exchange::{ROBUST_POLICY, World};
 use inquiry::tabular::{Answering, Over, alternatives, discounted_features, normalised_state_losses, state_losses};
 use inquiry::{
     Answers, Belief, Branches, DrawnOptima, Effort, InquiryError, Losses, Objective, Question, Round, Selecting,
@@ -15,17 +16,11 @@ use inquiry::{
 };
 use likelihood::preferences::AnswerModel;
 use mdp::random::uniform;
-use mdp::{Mdp, Policy, Solver};
+use mdp::{Mdp, Policy};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use sha2::{Digest, Sha256};
 
-/// Draws that answers are judged by: evenly spaced ones.
-const SCORED: usize = 200;
-/// Fewer say nothing of a 0.95-quantile.
-const MIN_SCORED: usize = 20;
-/// Action values that are kept at a time, at most.
-const MAX_VALUES: usize = 20_000_000;
 /// A loss of the policy that chooses at random divides as no less than this.
 const FLOOR: f64 = 1e-9;
 /// Questions whose answers are followed one step ahead.
@@ -62,7 +57,17 @@ pub fn world_question(
     if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() {
         return Ok(None);
     }
-    let query = ask(settings, inputs, None, 1)?.pop();
+    asked_by(settings, inputs, &WorldDraws::new(inputs)?, lesson)
+}
+
+/// The same by draws that are at hand.
+pub(crate) fn asked_by(
+    settings: &Settings,
+    inputs: &WorldInputs<'_>,
+    draws: &WorldDraws,
+    lesson: &LessonStatus,
+) -> Result<Option<(WorldQuery, LessonStatus)>, String> {
+    let query = ahead_by(settings, inputs, draws, lesson, None, 0)?.pop();
     Ok(query.map(|query| {
         let questions_asked = lesson.questions_asked.saturating_add(1);
         let lesson = LessonStatus { query_id: query.id.clone(), questions_asked, ..lesson.clone() };
@@ -83,48 +88,34 @@ pub fn questions_ahead(
     open: Option<&WorldQuery>,
     n: usize,
 ) -> Result<Vec<WorldQuery>, String> {
-    if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() {
-        return Ok(Vec::new());
-    }
-    ask(settings, inputs, open, 1 + n)
+    ahead_by(settings, inputs, &WorldDraws::new(inputs)?, lesson, open, n)
 }
 
-fn ask(
+/// The same by draws that are at hand.
+pub(crate) fn ahead_by(
     settings: &Settings,
     inputs: &WorldInputs<'_>,
+    draws: &WorldDraws,
+    lesson: &LessonStatus,
     open: Option<&WorldQuery>,
-    n_questions: usize,
+    n: usize,
 ) -> Result<Vec<WorldQuery>, String> {
     let WorldInputs { posterior, world, log, .. } = *inputs;
-    check_posterior(posterior).map_err(|error| error.to_string())?;
-    let (mdp, k) = (&world.mdp, world.feature_names.len());
-    if posterior.world.hash != world.hash || posterior.feature_names.len() != k {
-        return Err("the posterior is about another world".to_owned());
-    }
-    if mdp.n_actions() < 2 {
+    let mdp = &world.mdp;
+    if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() || mdp.n_actions() < 2 {
         return Ok(Vec::new());
     }
     let mut rests = Rests::new(log, posterior.revision).ok_or("the evidence ends before the posterior")?;
-    let n_draws = posterior.n_draws as usize;
-    let n = SCORED.min(n_draws).min(MAX_VALUES / (mdp.n_states() * mdp.n_actions()));
-    if n < MIN_SCORED.min(n_draws) {
-        return Err(format!("a world of {} states is too large to ask about", mdp.n_states()));
-    }
-    let chosen: Vec<usize> = (0..n).map(|i| i * n_draws / n).collect();
-    let weights: Vec<f64> =
-        chosen.iter().flat_map(|draw| &posterior.draws[draw * k..][..k]).map(|w| f64::from(*w)).collect();
     let mut rng = ChaCha8Rng::seed_from_u64(settings.seed.unsigned_abs());
     // An undo that leads back to an earlier state of the lesson leads back to its question.
     let stream = WORLD_STREAM | rests.n as u64;
     rng.set_stream(stream);
     let situations = situations(mdp, &mut rng);
     let wrong = |error: InquiryError| error.to_string();
-    let optima = DrawnOptima::new(mdp, &weights, 1).map_err(wrong)?;
-    let map = Solver::new(mdp).solve(&posterior.map_weights).policy().to_vec();
-    let scoring =
-        Scoring { settings, inputs, optima: &optima, map: Policy::Deterministic(map.clone()), chosen: &chosen };
+    let optima = &draws.optima;
+    let scoring = Scoring { settings, inputs, draws, optima, map: Policy::Deterministic(draws.map.clone()) };
     let steps = usize::try_from(settings.trajectory_steps).unwrap_or(2);
-    let ways = Ways { mdp, map: &map, optima: &optima, steps, seed: settings.seed.unsigned_abs(), stream };
+    let ways = Ways { mdp, map: &draws.map, optima, steps, seed: settings.seed.unsigned_abs(), stream };
     let mut branches = Branches::now(scoring.belief().map_err(wrong)?);
     let mut queries: Vec<WorldQuery> = Vec::new();
     let mut last = open.map(|query| (Subject::of(query), query.clone()));
@@ -139,7 +130,7 @@ fn ask(
             }
         };
         queries.push(query);
-        if queries.len() >= n_questions {
+        if queries.len() > n {
             break;
         }
         rests.answer(subject.kind, subject.state);
@@ -162,10 +153,9 @@ struct Found {
 struct Scoring<'a> {
     settings: &'a Settings,
     inputs: &'a WorldInputs<'a>,
+    draws: &'a WorldDraws,
     optima: &'a DrawnOptima,
     map: Policy,
-    /// Numbers of the draws in the posterior.
-    chosen: &'a [usize],
 }
 
 impl Scoring<'_> {
@@ -198,7 +188,8 @@ impl Scoring<'_> {
             (false, _) => Why::Risk { share, alpha: bounds.alpha, n_states: n_situations },
         };
         let revision = posterior.revision + ahead as u64;
-        let id = world_query_id(revision, subject.kind, subject.state, &short_hash(settings.seed, posterior));
+        let id =
+            world_query_id(revision, subject.kind, subject.state, is_held_out, &short_hash(settings.seed, posterior));
         let mut trajectories = Vec::new();
         for (way, name) in subject.ways.iter().zip(["a", "b"]) {
             trajectories.push(WorldTrajectory {
@@ -372,11 +363,12 @@ impl Scoring<'_> {
     }
 
     fn answers(&self, subject: &Subject) -> Result<Answers, InquiryError> {
-        let (betas, wrong_rate) = self.rationality(match subject.kind {
+        let kind = match subject.kind {
             QuestionKind::Action => "actions",
             QuestionKind::Critique => "critiques",
             QuestionKind::Comparison => "preferences",
-        });
+        };
+        let (betas, wrong_rate) = self.draws.rationality(self.inputs.posterior, kind);
         let answering = Answering { mdp: self.mdp(), optima: self.optima, betas: &betas, wrong_rate };
         match subject.ways.as_slice() {
             [] => answering.action(subject.state),
@@ -385,24 +377,6 @@ impl Scoring<'_> {
             }
             [way, ..] => answering.critique(way),
         }
-    }
-
-    /// How rational answers of a kind are by the posterior, for all draws or for each, and their rate of wrong ones.
-    fn rationality(&self, kind: &str) -> (Vec<f64>, f64) {
-        let posterior = self.inputs.posterior;
-        let of = posterior.rationalities.iter().find(|of| of.kind == kind);
-        let usable = |beta: f64| if beta > 0.0 && beta.is_finite() { beta } else { 1.0 };
-        let wrong_rate = of.map(|of| of.wrong_rate).filter(|rate| (0.0..1.0).contains(rate)).unwrap_or(0.0);
-        let n_learned = posterior.learned_kinds.len();
-        let betas = match posterior.learned_kinds.iter().position(|learned| learned == kind) {
-            Some(at) => {
-                let beta =
-                    |draw: &usize| posterior.learned_betas.get(draw * n_learned + at).copied().unwrap_or(f32::NAN);
-                self.chosen.iter().map(|draw| usable(f64::from(beta(draw)))).collect()
-            }
-            None => vec![usable(of.map_or(f64::NAN, |of| of.mean))],
-        };
-        (betas, wrong_rate)
     }
 
     fn mdp(&self) -> &Mdp {

@@ -1,7 +1,7 @@
 //! What was asked about a world before, by the answers in force: ids of questions say what they are about.
 
 use crate::settings::QuestionKind;
-use apprentice_msgs::msg::EvidenceLog;
+use apprentice_msgs::msg::{EvidenceLog, EvidenceRecord, QueryResponse};
 use exchange::in_force;
 use std::collections::BTreeSet;
 
@@ -29,12 +29,8 @@ impl Rests {
         let mut rests = Self::default();
         let mut answered = Vec::new();
         for record in in_force(records) {
-            let skipped = record.response.first().and_then(|m| about(&m.query_id));
-            let answer = None
-                .or(record.actions.first().map(|m| &m.query_id))
-                .or(record.preference.first().map(|m| &m.query_id))
-                .or(record.critique.first().map(|m| &m.query_id));
-            let answer = answer.and_then(|id| about(id));
+            let skipped = question_skipped(record).and_then(|id| about(id));
+            let answer = question_answered(record).and_then(|id| about(id));
             rests.n += usize::from(skipped.is_some() || answer.is_some());
             rests.skipped.extend(skipped);
             answered.extend(answer);
@@ -57,27 +53,62 @@ impl Rests {
 }
 
 /// The id of a question about a world: unique within a session, since every accepted event makes a new revision.
-pub(crate) fn world_query_id(revision: u64, kind: QuestionKind, state: usize, short_hash: &str) -> String {
-    let letter = match kind {
-        QuestionKind::Action => 'a',
-        QuestionKind::Critique => 'k',
-        QuestionKind::Comparison => 'c',
+/// Its letter is a capital when it was drawn at random to be held out.
+pub(crate) fn world_query_id(
+    revision: u64,
+    kind: QuestionKind,
+    state: usize,
+    is_held_out: bool,
+    short_hash: &str,
+) -> String {
+    let letter = match (kind, is_held_out) {
+        (QuestionKind::Action, false) => 'a',
+        (QuestionKind::Critique, false) => 'k',
+        (QuestionKind::Comparison, false) => 'c',
+        (QuestionKind::Action, true) => 'A',
+        (QuestionKind::Critique, true) => 'K',
+        (QuestionKind::Comparison, true) => 'C',
     };
     format!("w{revision}-{letter}{state}-{short_hash}")
 }
 
 /// What a question of [`world_query_id`] is about.
 fn about(id: &str) -> Option<About> {
-    let mut parts = id.strip_prefix('w')?.split('-');
-    let _revision: u64 = parts.next()?.parse().ok()?;
-    let subject = parts.next()?;
+    let subject = subject(id)?;
     let kind = match subject.chars().next()? {
-        'a' => QuestionKind::Action,
-        'k' => QuestionKind::Critique,
-        'c' => QuestionKind::Comparison,
+        'a' | 'A' => QuestionKind::Action,
+        'k' | 'K' => QuestionKind::Critique,
+        'c' | 'C' => QuestionKind::Comparison,
         _ => return None,
     };
     Some((kind, subject[1..].parse().ok()?))
+}
+
+fn subject(id: &str) -> Option<&str> {
+    let mut parts = id.strip_prefix('w')?.split('-');
+    let _revision: u64 = parts.next()?.parse().ok()?;
+    parts.next()
+}
+
+/// Whether a record answers a question that was drawn at random to be held out.
+pub(crate) fn asked_at_random(record: &EvidenceRecord) -> bool {
+    let is_capital = |id: &str| subject(id).is_some_and(|subject| subject.starts_with(['A', 'K', 'C']));
+    question_answered(record).is_some_and(|id| is_capital(id))
+}
+
+/// The question that a record answers.
+pub(crate) fn question_answered(record: &EvidenceRecord) -> Option<&String> {
+    let id = None
+        .or(record.actions.first().map(|m| &m.query_id))
+        .or(record.preference.first().map(|m| &m.query_id))
+        .or(record.critique.first().map(|m| &m.query_id));
+    id.filter(|id| !id.is_empty())
+}
+
+/// The question that a record skips.
+pub(crate) fn question_skipped(record: &EvidenceRecord) -> Option<&String> {
+    let passed = [QueryResponse::SKIP, QueryResponse::CANT_TELL];
+    record.response.first().filter(|m| passed.contains(&m.kind)).map(|m| &m.query_id).filter(|id| !id.is_empty())
 }
 
 #[cfg(test)]
@@ -87,7 +118,7 @@ mod tests {
     use apprentice_msgs::msg::{ActionDemonstration, EvidenceLog, EvidenceRecord, QueryResponse, Retraction};
 
     fn action(n: u64, state: usize) -> EvidenceRecord {
-        let query_id = world_query_id(n - 1, QuestionKind::Action, state, "00ff");
+        let query_id = world_query_id(n - 1, QuestionKind::Action, state, false, "00ff");
         let actions = ActionDemonstration { id: format!("e{n}"), query_id, ..ActionDemonstration::default() };
         EvidenceRecord { sequence: n, actions: vec![actions], ..EvidenceRecord::default() }
     }
@@ -95,7 +126,7 @@ mod tests {
     #[test]
     fn ids_say_what_questions_are_about_and_other_ids_say_nothing() {
         for kind in [QuestionKind::Action, QuestionKind::Critique, QuestionKind::Comparison] {
-            assert_eq!(about(&world_query_id(12, kind, 345, "00ff")), Some((kind, 345)));
+            assert_eq!(about(&world_query_id(12, kind, 345, false, "00ff")), Some((kind, 345)));
         }
         for other in ["", "w", "w1", "w1-", "w1-x3-0", "q1-a3-0", "w-a3-0", "w1-a-0", "w1-é-0"] {
             assert_eq!(about(other), None, "{other}");
@@ -106,7 +137,7 @@ mod tests {
     fn an_answer_rests_for_a_while_a_skip_for_good_and_what_was_taken_back_not_at_all() {
         let skip = QueryResponse {
             id: "e2".into(),
-            query_id: world_query_id(1, QuestionKind::Critique, 7, "00ff"),
+            query_id: world_query_id(1, QuestionKind::Critique, 7, true, "00ff"),
             ..QueryResponse::default()
         };
         let mut records =

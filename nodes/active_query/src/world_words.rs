@@ -63,6 +63,35 @@ pub(crate) fn why(why: Why) -> String {
     }
 }
 
+/// That what was said does not fit, by the posterior-predictive check.
+pub(crate) fn misfit(p_value: f64, features: &[String]) -> String {
+    let odds = if p_value > 0.0 { format!("1 in {:.0}", 1.0 / p_value) } else { "less than 1 in 2,000".to_owned() };
+    format!(
+        "what you said cannot all be explained with {}: under the rewards that fit best, answers as odd as yours come about in {odds} \
+         lessons. Take back what you did not mean; if you meant all of it, I lack a feature that you go by",
+        list(features)
+    )
+}
+
+/// That too many answers were not expected.
+pub(crate) fn surprised(surprises: u64, n: u64, features: &[String]) -> String {
+    format!(
+        "of {n} answers to questions that I drew at random, {surprises} were not what I expected, and 1 in 10 should be: what I learned \
+         from you does not say what you do. Take back what you did not mean; if you meant all of it, {} are not all that you go by",
+        list(features)
+    )
+}
+
+/// "path, lawn and mud".
+fn list(names: &[String]) -> String {
+    match names {
+        [] => "nothing".to_owned(),
+        [one] => one.clone(),
+        [first @ .., last] if first.len() < 8 => format!("{} and {last}", first.join(", ")),
+        many => format!("the {} features", many.len()),
+    }
+}
+
 /// That a question does not know of the newest answers, where it does not.
 pub(crate) fn ahead(n: usize) -> String {
     match n {

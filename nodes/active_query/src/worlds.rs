@@ -2,7 +2,10 @@
 
 use crate::ahead::Ahead;
 use crate::node::Output;
-use crate::{Settings, WorldInputs, questions_ahead, world_lesson, world_question};
+use crate::world_draws::WorldDraws;
+use crate::world_fit::{fitted_by, is_judged};
+use crate::world_question::{ahead_by, asked_by};
+use crate::{Settings, WorldInputs, world_lesson};
 use apprentice_msgs::msg::{EvidenceLog, LessonStatus, PolicyBounds, Posterior, TabularWorld, WorldQuery};
 use apprentice_msgs::to_cdr;
 use exchange::{MAX_ID, World, world_from_message, world_hash};
@@ -17,8 +20,12 @@ pub(crate) struct Worlds {
     bounds: Option<Box<PolicyBounds>>,
     world: Option<World>,
     log: Option<Box<EvidenceLog>>,
-    /// The state of the lesson that was told last, before a question was added.
+    /// The state of the lesson by the bounds that came last.
     known: Option<LessonStatus>,
+    /// The same by how well the evidence fits, too; without its question.
+    lesson: Option<LessonStatus>,
+    /// What that and the question were chosen by.
+    draws: Option<WorldDraws>,
     query: Option<Box<WorldQuery>>,
     ahead: Option<Ahead>,
     told: Option<String>,
@@ -60,44 +67,50 @@ impl Worlds {
     /// about, and the state of the lesson with it.
     pub fn news(&mut self, settings: &Settings) -> Vec<Output> {
         let (Some(posterior), Some(bounds)) = (&self.posterior, &self.bounds) else { return Vec::new() };
-        let Some(lesson) = world_lesson(settings, posterior, bounds) else { return Vec::new() };
-        if self.known.as_ref().is_some_and(|known| to_cdr(known) == to_cdr(&lesson)) {
+        let Some(known) = world_lesson(settings, posterior, bounds) else { return Vec::new() };
+        if self.known.as_ref().is_some_and(|before| to_cdr(before) == to_cdr(&known)) {
             return Vec::new();
         }
-        if lesson.state == LessonStatus::ASKING
-            && let Some(with_question) = self.asked_ahead(&lesson)
-        {
-            self.known = Some(lesson);
+        let asks = known.state == LessonStatus::ASKING && !settings.question_kinds.is_empty();
+        let (mut lesson, mut asked) = (known.clone(), Ok(None));
+        if asks || is_judged(settings, &known) {
+            let Some(inputs) = self.inputs() else { return Vec::new() };
+            match WorldDraws::new(&inputs) {
+                Ok(draws) => {
+                    lesson = fitted_by(settings, &inputs, &draws, known.clone()).unwrap_or(lesson);
+                    if self.stays(&lesson).is_none() {
+                        asked = asked_by(settings, &inputs, &draws, &lesson);
+                    }
+                    self.draws = (settings.next_within_s > 0.0 && asks).then_some(draws);
+                }
+                Err(reason) => asked = Err(reason),
+            }
+        }
+        self.known = Some(known);
+        if let Some(with_question) = self.stays(&lesson) {
             // What may follow is chosen by what is known now.
             let open = self.query.as_deref().filter(|open| open.id == with_question.query_id);
             self.ahead = open.cloned().map(Ahead::new).or(self.ahead.take());
+            self.lesson = Some(lesson);
             let looks = open.map(|_| Output::LookAhead);
             return std::iter::once(Output::Lesson(with_question)).chain(looks).collect();
         }
-        let mut asked = Ok(None);
-        if lesson.state == LessonStatus::ASKING && !settings.question_kinds.is_empty() {
-            let Some(inputs) = self.inputs() else { return Vec::new() };
-            asked = world_question(settings, &inputs, &lesson);
-        }
-        self.known = Some(lesson.clone());
+        self.lesson = Some(lesson.clone());
         (self.query, self.ahead) = (None, None);
         let mut outputs = Vec::new();
-        let lesson = match asked {
-            Ok(Some((query, lesson))) => {
+        match asked {
+            Ok(Some((query, with_question))) => {
                 let query = Box::new(query);
                 outputs.push(Output::WorldQuery(query.clone()));
                 if settings.next_within_s > 0.0 && settings.questions_ahead > 0 {
                     self.ahead = Some(Ahead::new((*query).clone()));
                 }
                 self.query = Some(query);
-                lesson
+                lesson = with_question;
             }
-            Ok(None) => lesson,
-            Err(reason) => {
-                outputs.extend(self.tell(format!("nothing can be asked about the world: {reason}")));
-                lesson
-            }
-        };
+            Ok(None) => {}
+            Err(reason) => outputs.extend(self.tell(format!("nothing can be asked about the world: {reason}"))),
+        }
         outputs.push(Output::Lesson(lesson));
         outputs.extend(self.ahead.as_ref().map(|_| Output::LookAhead));
         outputs
@@ -113,8 +126,10 @@ impl Worlds {
 
     /// The lesson when a question is open that was asked before the posterior came: it stays, since the person may be at it. One
     /// that is of a later revision still is not this posterior's.
-    fn asked_ahead(&self, lesson: &LessonStatus) -> Option<LessonStatus> {
-        let query = self.query.as_ref().filter(|query| query.ahead > 0 && query.revision >= lesson.revision)?;
+    fn stays(&self, lesson: &LessonStatus) -> Option<LessonStatus> {
+        let is_asking = lesson.state == LessonStatus::ASKING;
+        let is_open = |query: &&Box<WorldQuery>| is_asking && query.ahead > 0 && query.revision >= lesson.revision;
+        let query = self.query.as_ref().filter(is_open)?;
         let is_its_own = query.revision == lesson.revision;
         Some(LessonStatus {
             query_id: if is_its_own { query.id.clone() } else { String::new() },
@@ -126,14 +141,19 @@ impl Worlds {
     /// Chooses what may follow the open question, while the person thinks.
     pub fn look_ahead(&mut self, settings: &Settings) {
         let open = self.ahead.as_ref().and_then(Ahead::bare);
-        let (Some(open), Some(lesson), Some(inputs)) = (open, &self.known, self.inputs()) else { return };
-        if open.revision != inputs.posterior.revision {
+        // Of a large world they fill much memory, and are not needed twice.
+        let draws = self.draws.take();
+        let (Some(open), Some(lesson), Some(inputs), Some(draws)) = (open, &self.lesson, self.inputs(), draws) else {
+            return;
+        };
+        // A posterior that has come since has draws of its own, and a lesson with them.
+        if open.revision != inputs.posterior.revision || lesson.revision != open.revision {
             return;
         }
         let n = usize::try_from(settings.questions_ahead).unwrap_or(0);
         // What cannot be asked was told of when the open question was chosen.
         let open = Some(open).filter(|open| open.ahead > 0);
-        let queries = questions_ahead(settings, &inputs, lesson, open, n).unwrap_or_default();
+        let queries = ahead_by(settings, &inputs, &draws, lesson, open, n).unwrap_or_default();
         if let Some(ahead) = &mut self.ahead {
             ahead.follow(queries);
         }

@@ -319,6 +319,8 @@ fn nothing_is_asked_before_all_is_known_or_when_the_lesson_is_over_or_nothing_ma
     assert!(matches!(step(&mut node, Event::Republish).as_slice(), [Output::Lesson(_)]), "no question is open");
 
     let mut silent = ActiveQuery::new(Settings { question_kinds: vec![], ..settings() });
+    step(&mut silent, Event::World(Box::new(message())));
+    step(&mut silent, Event::Evidence(Box::new(log(&[]))));
     step(&mut silent, Event::Posterior(Box::new(posterior(0))));
     let told = step(&mut silent, Event::PolicyBounds(Box::new(bounds(0, 0.5))));
     assert!(matches!(told.as_slice(), [Output::Lesson(lesson)] if lesson.query_id.is_empty()), "{told:?}");

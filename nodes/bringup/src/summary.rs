@@ -13,7 +13,7 @@ use std::time::Duration;
 pub struct Summary {
     /// Whether the bound is below ε.
     pub taught: bool,
-    /// "asking", "taught", "stopped", "gave_up", "paused" or "finished".
+    /// "asking", "taught", "stopped", "gave_up", "paused", "finished" or "misfit".
     pub state: &'static str,
     /// The reason for the state, in words.
     pub why: String,
@@ -161,6 +161,7 @@ impl Summary {
                 LessonStatus::GAVE_UP => "gave_up",
                 LessonStatus::PAUSED => "paused",
                 LessonStatus::FINISHED => "finished",
+                LessonStatus::MISFIT => "misfit",
                 _ => "asking",
             },
             why: why.filter(|_| state == LessonStatus::ASKING).unwrap_or(own_reason).to_owned(),

@@ -64,6 +64,7 @@ impl WorldStory {
             LessonStatus::GAVE_UP => "gave up",
             LessonStatus::PAUSED => "paused",
             LessonStatus::FINISHED => "finished",
+            LessonStatus::MISFIT => "does not fit",
             _ => return lines,
         };
         lines.push((Kind::Lesson, format!("    {word} {after}: {}", short(&lesson.reason))));

@@ -25,15 +25,15 @@ export function fate(answer) {
   return ANSWERS.revision(answer.revision);
 }
 
-/** Draws the list, newest first; `on` has undo(answer), redo(answer) and look(answer or null). */
-export function drawAnswers(list, answers, on) {
+/** Draws the list, newest first; `misfits` are the ids of those that fit worst; `on` has undo(answer), redo(answer) and look(answer or null). */
+export function drawAnswers(list, answers, misfits, on) {
   const focused = list.contains(document.activeElement) ? document.activeElement.closest("[data-id]")?.dataset.id : undefined;
   const known = new Map([...list.children].map((item) => [item.dataset.id, item]));
   const items = answers.toReversed().map((answer) => {
-    const key = JSON.stringify([answer.state, answer.revision, answer.reason, answer.undo]);
+    const isOdd = misfits.includes(answer.id), key = JSON.stringify([answer.state, answer.revision, answer.reason, answer.undo, isOdd]);
     const old = known.get(answer.id);
     if (old && old.dataset.key === key) return old;
-    const item = build(answer, on);
+    const item = build(answer, isOdd, on);
     item.dataset.id = answer.id;
     item.dataset.key = key;
     return item;
@@ -44,9 +44,9 @@ export function drawAnswers(list, answers, on) {
   if (focused) list.querySelector(`[data-id="${CSS.escape(focused)}"] button`)?.focus({ preventScroll: true });
 }
 
-function build(answer, on) {
+function build(answer, isOdd, on) {
   const item = document.createElement("li");
-  item.className = `entry ${answer.state}`;
+  item.className = `entry ${answer.state}${isOdd ? " misfit" : ""}`;
   item.dataset.state = answer.state;
   item.dataset.kind = answer.kind;
   if (answer.revision !== null) item.dataset.revision = answer.revision;
@@ -55,7 +55,7 @@ function build(answer, on) {
   const title = document.createElement("strong");
   title.textContent = on.title?.(answer) ?? (answer.kind === "placement" ? ANSWERS.placement(answer.scene?.target.label, answer.x_m, answer.y_m) : ANSWERS.counted[answer.kind]?.(answer.n) ?? ANSWERS.kinds[answer.kind]);
   const detail = document.createElement("span");
-  detail.textContent = [answer.confidence ? ANSWERS.confidence[answer.confidence] : null, answer.mine ? ANSWERS.you : answer.source, fate(answer)].filter(Boolean).join(" · ");
+  detail.textContent = [isOdd ? ANSWERS.misfit : null, answer.confidence ? ANSWERS.confidence[answer.confidence] : null, answer.mine ? ANSWERS.you : answer.source, fate(answer)].filter(Boolean).join(" · ");
   words.append(title, detail);
   item.append(answer.scene ? thumbnail(answer) : mark(answer.kind), words);
   if (canUndo(answer)) item.append(button(ANSWERS.takeBack, title.textContent, () => on.undo(answer)));

@@ -43,7 +43,7 @@ function plan() {
 }
 
 /** The robot's opinion is shown once the person has formed one, or when nothing is asked. */
-const reveal = () => (showsQuestion() || own.correcting ? own.revealed : ["taught", "gave_up", "finished"].includes(lessonState()));
+const reveal = () => (showsQuestion() || own.correcting ? own.revealed : ["taught", "gave_up", "finished", "misfit"].includes(lessonState()));
 
 // ---- from the node ------------------------------------------------------------------------------------------------
 
@@ -201,7 +201,7 @@ function render() {
   renderTable();
   renderAnswer();
   renderProgress();
-  drawAnswers($("answers"), state.answers, { undo, redo, look });
+  drawAnswers($("answers"), state.answers, state.lesson?.misfits ?? [], { undo, redo, look });
   const active = state.answers.filter((a) => a.state === "accepted").length;
   text("history-count", state.answers.length ? ANSWERS.count(active, state.answers.length) : "");
   $("no-answers").hidden = state.answers.length > 0;

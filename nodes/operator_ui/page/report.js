@@ -117,7 +117,7 @@ function heading(of, now) {
   const late = of.bound !== null && revision !== null && of.boundRevision < revision ? REPORT.late(of.boundRevision, revision) : "";
   // While it learns, the lesson's reason is the claim itself.
   const stands = REPORT.lesson[word] ?? REPORT.lesson.unknown, why = lesson && word !== "asking" && lesson.reason ? REPORT.because(stands, lesson.reason) : stands, names = REPORT.facts;
-  const facts = [[names.worst, of.bound === null ? REPORT.none.bound : of.amount(of.bound)], [names.goal, of.amount(of.goal)], [names.inForce, inForce(of.answers).length], [names.revision, revision ?? "–"]];
+  const facts = [[names.worst, of.bound === null ? REPORT.none.bound : of.amount(of.bound)], [names.goal, of.amount(of.goal)], [names.inForce, inForce(of.answers).length], [names.revision, revision ?? "–"], ...(lesson?.held_out ? [[names.atRandom, REPORT.atRandom(lesson.held_out, lesson.surprises)]] : [])];
   return make("header", "", make("h1", "", REPORT.title), make("p", "report-date", time), make("p", "report-subject", about),
     paragraph(sentence(why), "report-state"), make("dl", "report-facts", ...facts.map(([name, value]) => make("div", "", make("dt", "", name), make("dd", "", value)))),
     paragraph(guarantee(of), of.bound === null ? "report-none" : ""), paragraph(claim, "report-claim"), paragraph(late, "report-none"));

@@ -24,7 +24,7 @@ export const BAR = {
 };
 
 /** How the lesson stands, in a word or two. */
-export const STATES = { waiting: "Waiting for the lesson", asking: "Learning", taught: "Taught", stopped: "Stopped", gave_up: "Gave up", paused: "Paused", finished: "Finished" };
+export const STATES = { waiting: "Waiting for the lesson", asking: "Learning", taught: "Taught", stopped: "Stopped", gave_up: "Gave up", paused: "Paused", finished: "Finished", misfit: "Does not fit" };
 
 /** The connection and the nodes. */
 export const LINK = {
@@ -91,7 +91,7 @@ export const QUESTION = {
   where: (name) => `Where does the ${name} belong?`,
   correct: (name) => `Show where the ${name} belongs on the table as it is.`,
   it: "it",
-  titles: { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking.", paused: "The lesson is paused.", finished: "The lesson is finished." },
+  titles: { taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up asking.", paused: "The lesson is paused.", finished: "The lesson is finished.", misfit: "What was said does not fit together." },
   thinking: "Thinking about the next question…",
 };
 
@@ -148,7 +148,7 @@ export const ANSWERS = {
   giveAgain: "Give again",
   button: (does, what) => `${does}: ${what}`,
   earlier: (fate) => `An earlier answer: ${fate}`,
-  pending: "on its way…",
+  misfit: "fits worst with the rest", pending: "on its way…",
   held: "waits for the new lesson…",
   revision: (n) => `revision ${n}`,
   past: (n) => `revision ${n}, of an earlier lesson`,
@@ -282,7 +282,7 @@ export function wayWords(world, way) {
 export const WORLD = {
   stage: "The world and what the robot would do in it",
   label: "The world",
-  titles: { asking: "The robot is learning what you want.", taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up learning.", paused: "The lesson is paused.", finished: "The lesson is finished." },
+  titles: { asking: "The robot is learning what you want.", taught: "The robot has learned enough.", stopped: "The lesson is stopped.", gave_up: "The robot gave up learning.", paused: "The lesson is paused.", finished: "The lesson is finished.", misfit: "What was said does not fit together." },
   thinking: "Thinking about what to do…",
   undecided: "The robot has not decided what to do.",
   show: "What I would do",
@@ -413,10 +413,10 @@ export const REPORT = {
   world: (name) => `What to do in the world “${name}”`,
   lesson: {
     waiting: "No lesson has begun", asking: "Still learning", taught: "Taught: the robot has learned enough", stopped: "Stopped by the person", gave_up: "The robot gave up asking",
-    paused: "Paused: the robot asks nothing for now", finished: "Finished: the person said that this is enough", unknown: "Where the lesson stands is not known",
+    paused: "Paused: the robot asks nothing for now", finished: "Finished: the person said that this is enough", misfit: "What was said does not fit together", unknown: "Where the lesson stands is not known",
   },
   because: (state, reason) => `${state}; ${reason}`,
-  facts: { worst: "At worst", goal: "Goal", inForce: "Answers in force", revision: "Revision" },
+  facts: { worst: "At worst", goal: "Goal", inForce: "Answers in force", revision: "Revision", atRandom: "Asked at random" }, atRandom: (n, odd) => `${n}, ${odd} not as expected`,
   aim: (goal, isReached) => (goal === null ? "No goal is known" : `The goal is ${goal}${isReached === null ? "" : isReached ? ": reached" : ": not reached"}`),
   nothing: (reason) => `Nothing guarantees how well the robot does: ${reason || "no bound has been computed"}`,
   loses: (share) => `the robot loses at worst ${share} of what choosing at random loses`,

@@ -105,7 +105,7 @@ export class WorldLesson {
     this.renderPolicy();
     this.renderProgress();
     drawWeights($("weights"), state.weights);
-    drawAnswers($("world-answers"), state.answers, { ...this.on, look: () => {}, title: (answer) => WORDS.answer(state.world, answer) });
+    drawAnswers($("world-answers"), state.answers, state.lesson?.misfits ?? [], { ...this.on, look: () => {}, title: (answer) => WORDS.answer(state.world, answer) });
     const active = state.answers.filter((a) => a.state === "accepted").length;
     text("world-count", state.answers.length ? ANSWERS.count(active, state.answers.length) : "");
     $("world-no-answers").hidden = state.answers.length > 0;

@@ -17,6 +17,9 @@ const MAX_MAP_SIDE: u32 = 256;
 /// More candidates are not shown.
 const MAX_CANDIDATES: usize = 50;
 
+/// More pieces of evidence that do not fit are not named.
+const MAX_MISFITS: usize = 16;
+
 /// `None` for what is not finite.
 pub(crate) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
@@ -167,6 +170,10 @@ pub(crate) fn lesson_view(message: &LessonStatus) -> LessonView {
         epsilon_m: finite(message.epsilon_m),
         loss_bound: goal(message).and(finite(message.loss_bound)),
         epsilon_loss: goal(message),
+        held_out: message.held_out,
+        surprises: message.surprises,
+        misfit_p: finite(message.misfit_p),
+        misfits: message.misfits.iter().take(MAX_MISFITS).cloned().collect(),
     }
 }
 

@@ -121,6 +121,7 @@ fn state(state: u8) -> &'static str {
         LessonStatus::GAVE_UP => "gave up",
         LessonStatus::PAUSED => "paused",
         LessonStatus::FINISHED => "finished",
+        LessonStatus::MISFIT => "misfit",
         _ => "unknown",
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::report::{Mismatch, found};
 use crate::{Difference, Lesson, Recording, ReplayError};
-use active_query::{WorldInputs, questions_ahead, world_lesson, world_question};
+use active_query::{WorldInputs, fitted, questions_ahead, world_lesson, world_question};
 use apprentice_msgs::msg::{LessonStatus, PolicyFrontier, RiskPreference, RobustPolicy, WorldQuery};
 use apprentice_msgs::{Message, to_cdr};
 use bus::NodeSettings;
@@ -69,7 +69,10 @@ fn judged<'a>(
         let posterior = &round.posterior;
         let state = world_lesson(settings, posterior, bounds)?;
         let world = lesson.worlds.get(&posterior.world.hash);
-        Some((world.map(|world| WorldInputs { posterior, world, log: &recording.evidence, bounds }), state))
+        let inputs = world.map(|world| WorldInputs { posterior, world, log: &recording.evidence, bounds });
+        // Evidence that cannot be held against the world is told of, and the lesson goes on.
+        let fitted = inputs.as_ref().and_then(|inputs| fitted(settings, inputs, state.clone()).ok());
+        Some((inputs, fitted.unwrap_or(state)))
     })
 }
 

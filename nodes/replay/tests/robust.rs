@@ -103,6 +103,7 @@ fn session() -> Bag {
             let state = active_query::world_lesson(&settings, &round.posterior, &judged).expect("it is about a world");
             let (posterior, log) = (&round.posterior, &recording.evidence);
             let inputs = active_query::WorldInputs { posterior, world: &of, log, bounds: &judged };
+            let state = active_query::fitted(&settings, &inputs, state).expect("it fits together");
             let asked = active_query::world_question(&settings, &inputs, &state).expect("it fits together");
             let (query, state) = asked.expect("the lesson goes on");
             record(&mut bag, "world_query", &query);

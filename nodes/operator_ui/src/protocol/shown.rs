@@ -137,7 +137,7 @@ pub struct CandidateView {
 pub struct LessonView {
     /// Of the posterior.
     pub revision: u64,
-    /// `asking`, `taught`, `stopped`, `gave_up`, `paused`, `finished` or `unknown`.
+    /// `asking`, `taught`, `stopped`, `gave_up`, `paused`, `finished`, `misfit` or `unknown`.
     pub state: &'static str,
     /// In words.
     pub reason: String,
@@ -157,6 +157,14 @@ pub struct LessonView {
     pub loss_bound: Option<f64>,
     /// About a world: the goal.
     pub epsilon_loss: Option<f64>,
+    /// About a world: answers to questions that were drawn at random,
+    pub held_out: u32,
+    /// and how many of them were not expected.
+    pub surprises: u32,
+    /// About a world: how probable answers as odd as those given are.
+    pub misfit_p: Option<f64>,
+    /// Ids of what fits worst, where the state is `misfit`.
+    pub misfits: Vec<String>,
 }
 
 /// The bound and everything it rests on.
