@@ -66,15 +66,18 @@ fn a_lesson_about_a_world_is_taught_by_a_peer_survives_a_kill_and_is_replayed_to
     assert_eq!(of("left")["rank"], 3, "the person walks to the right: {told}");
     assert!(of("right")["loss"].as_f64() < of("left")["loss"].as_f64(), "{told}");
 
-    // The one that keeps the evidence is killed; the one that comes back says the same.
+    // The one that keeps the evidence is killed, once it is known; the one that comes back says the same.
+    let n_starts = |bag: &Recorded| {
+        let alive = bag.timed::<Heartbeat>("heartbeat").into_iter().map(|(_, beat)| beat);
+        let ours = alive.filter(|beat| beat.node.ends_with("reward_posterior")).map(|beat| beat.instance);
+        ours.collect::<BTreeSet<String>>().len()
+    };
+    recorded(&bag, "the first node", |bag| (n_starts(bag) == 1).then_some(()));
     kill_process(posterior.pid(), Signal::KILL).expect("it runs");
     posterior.wait(LIMIT);
     let mut posterior = reward_posterior(domain, &folder);
     let n_before = recorded(&bag, "the restarted node", |bag| {
-        let alive = bag.timed::<Heartbeat>("heartbeat").into_iter().map(|(_, beat)| beat);
-        let ours = alive.filter(|beat| beat.node.ends_with("reward_posterior")).map(|beat| beat.instance);
-        let n_starts = ours.collect::<BTreeSet<String>>().len();
-        (n_starts == 2).then(|| bag.timed::<Posterior>("posterior").len())
+        (n_starts(bag) == 2).then(|| bag.timed::<Posterior>("posterior").len())
     });
     recorded(&bag, "a posterior of the restarted node", |bag| {
         (bag.timed::<Posterior>("posterior").len() > n_before).then_some(())

@@ -127,9 +127,8 @@ impl Worlds {
     /// The lesson when a question is open that was asked before the posterior came: it stays, since the person may be at it. One
     /// that is of a later revision still is not this posterior's.
     fn stays(&self, lesson: &LessonStatus) -> Option<LessonStatus> {
-        let is_asking = lesson.state == LessonStatus::ASKING;
-        let is_open = |query: &&Box<WorldQuery>| is_asking && query.ahead > 0 && query.revision >= lesson.revision;
-        let query = self.query.as_ref().filter(is_open)?;
+        let open = self.query.as_deref().filter(|_| lesson.state == LessonStatus::ASKING)?;
+        let query = Some(open).filter(|query| query.ahead > 0 && query.revision >= lesson.revision)?;
         let is_its_own = query.revision == lesson.revision;
         Some(LessonStatus {
             query_id: if is_its_own { query.id.clone() } else { String::new() },
