@@ -442,6 +442,7 @@ float64 loss_bound               # about a world: bound on the normalised loss o
 float64 epsilon_loss             # the lesson about a world ends below it; NaN when it is about a table
 uint32 held_out                  # about a world: answers to questions that were drawn at random
 uint32 surprises                 # of these, how many were not expected; 1 in 10 is by chance
+uint32 to_confirm                # answers to random questions, none of them a surprise, that the lesson still needs although its bound is good
 float64 misfit_p                 # about a world: how probable answers as odd as those given are; NaN where that was not reckoned
 string[] misfits                 # when the state is MISFIT: ids of the evidence that fits worst
 "#),

@@ -414,6 +414,8 @@ pub struct LessonStatus {
     pub held_out: u32,
     /// of these, how many were not expected; 1 in 10 is by chance (`uint32`)
     pub surprises: u32,
+    /// answers to random questions, none of them a surprise, that the lesson still needs although its bound is good (`uint32`)
+    pub to_confirm: u32,
     /// about a world: how probable answers as odd as those given are; NaN where that was not reckoned (`float64`)
     pub misfit_p: f64,
     /// when the state is MISFIT: ids of the evidence that fits worst (`string[]`)

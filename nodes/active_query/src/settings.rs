@@ -58,6 +58,11 @@ pub struct Settings {
     pub hold_out_share: f64,
     /// Level at which answers that do not fit end a lesson about a world; 0: none do.
     pub misfit_level: f64,
+    /// Share of surprises among answers to random questions that is still tolerable: a lesson about a world is not taught before they
+    /// show that there are no more; 1: they need not.
+    pub most_surprises: f64,
+    /// Nats per second of the person's time that a question about a world must promise; 0: none is too small.
+    pub least_gain_per_second: f64,
     /// Questions after which the lesson is given up.
     pub max_questions: i64,
     /// After so many seconds a question about a world is asked that does not know of the newest answer; 0: never.
@@ -82,6 +87,8 @@ impl Default for Settings {
             trajectory_steps: 8,
             hold_out_share: 0.1,
             misfit_level: 0.002,
+            most_surprises: 1.0,
+            least_gain_per_second: 0.0,
             max_questions: 60,
             next_within_s: 1.0,
             questions_ahead: 3,
@@ -143,6 +150,18 @@ impl NodeSettings for Settings {
             about: "a lesson about a world ends when answers as odd as those given are less probable than this under the rewards that fit, or \
                     surprises among the answers to random questions are; 0: never",
             range: Range::Float { min: 0.0, max: 0.5 },
+        },
+        ParameterSpec {
+            name: "most_surprises",
+            about: "a lesson about a world whose bound is good goes on with random questions until they show, with the confidence of the \
+                    bound, that no larger share of the answers are surprises; 1: they need not (.4 takes 6 answers without a surprise)",
+            range: Range::Float { min: 0.01, max: 1.0 },
+        },
+        ParameterSpec {
+            name: "least_gain_per_second",
+            about: "a lesson about a world is given up when the best question is expected to tell less than this for each second of the \
+                    person's time, nats, where it is chosen by that",
+            range: Range::Float { min: 0.0, max: 100.0 },
         },
         ParameterSpec {
             name: "max_questions",

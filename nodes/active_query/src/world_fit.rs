@@ -24,7 +24,8 @@ struct Said<'a> {
 /// Whether a lesson's state depends on how well the evidence fits: it is judged where there is a bound, which rests on the model.
 pub(crate) fn is_judged(settings: &Settings, lesson: &LessonStatus) -> bool {
     let goes_on = [LessonStatus::ASKING, LessonStatus::TAUGHT].contains(&lesson.state);
-    settings.misfit_level > 0.0 && goes_on && lesson.loss_bound.is_finite() && lesson.demonstrations > 0
+    let may_matter = settings.misfit_level > 0.0 || settings.most_surprises < 1.0;
+    may_matter && goes_on && lesson.loss_bound.is_finite() && lesson.demonstrations > 0
 }
 
 /// The lesson with what speaks against its model: its state says so when that is too much at the level of the settings.
@@ -64,18 +65,39 @@ pub(crate) fn fitted_by(
     (lesson.held_out, lesson.surprises) = (number(hold_out.n), number(hold_out.surprises));
     lesson.misfit_p = check.p_value;
     let names = &inputs.world.feature_names;
-    let reason = if hold_out.refutes(settings.misfit_level)? {
+    let level = settings.misfit_level;
+    let reason = if level > 0.0 && hold_out.refutes(level)? {
         world_words::surprised(hold_out.surprises, hold_out.n, names)
-    } else if check.warns(settings.misfit_level) {
+    } else if check.warns(level) {
         world_words::misfit(check.p_value, names)
     } else {
-        return Ok(lesson);
+        return confirmed(settings, inputs, &hold_out, lesson);
     };
     let mut worst: Vec<String> = check.worst.iter().map(|&at| record_id(said[at].record).to_owned()).collect();
     worst.dedup();
     lesson.state = LessonStatus::MISFIT;
     lesson.reason = reason;
     lesson.misfits = worst;
+    Ok(lesson)
+}
+
+/// A lesson whose bound is good goes on until answers to random questions show that surprises are few enough.
+fn confirmed(
+    settings: &Settings,
+    inputs: &WorldInputs<'_>,
+    hold_out: &HoldOut,
+    mut lesson: LessonStatus,
+) -> Result<LessonStatus, InquiryError> {
+    if lesson.state != LessonStatus::TAUGHT {
+        return Ok(lesson);
+    }
+    lesson.to_confirm = hold_out.missing(settings.most_surprises, inputs.bounds.delta)?;
+    if lesson.to_confirm == 0 {
+        return Ok(lesson);
+    }
+    let is_over = i64::from(lesson.demonstrations) >= settings.max_questions;
+    lesson.state = if is_over { LessonStatus::GAVE_UP } else { LessonStatus::ASKING };
+    lesson.reason = world_words::unconfirmed(&lesson.reason, lesson.to_confirm, settings.most_surprises, is_over);
     Ok(lesson)
 }
 

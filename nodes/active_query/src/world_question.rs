@@ -27,6 +27,8 @@ const FLOOR: f64 = 1e-9;
 const SHORTLIST: usize = 24;
 /// Policies that the robot may take up after an answer, besides the MAP policy: optimal ones of draws.
 const ALTERNATIVES: usize = 40;
+/// The largest share below 1.
+const ALWAYS: f64 = 1.0 - f64::EPSILON;
 /// Combinations of answers to open questions that are followed, at most: the most probable ones.
 const MAX_BRANCHES: usize = 8;
 /// Keeps these random numbers apart from those of the imagined tables.
@@ -45,7 +47,8 @@ pub struct WorldInputs<'a> {
     pub bounds: &'a PolicyBounds,
 }
 
-/// The question to ask while the lesson goes on, and the lesson with it; none when there is nothing to ask, or nothing may be.
+/// The question to ask while the lesson goes on, and the lesson with it; none when there is nothing to ask, or nothing may be, or when
+/// none is worth the person's time, which ends the lesson.
 ///
 /// # Errors
 /// In a sentence: parts that do not fit together, or a world that is too large.
@@ -53,9 +56,9 @@ pub fn world_question(
     settings: &Settings,
     inputs: &WorldInputs<'_>,
     lesson: &LessonStatus,
-) -> Result<Option<(WorldQuery, LessonStatus)>, String> {
+) -> Result<(Option<WorldQuery>, LessonStatus), String> {
     if lesson.state != LessonStatus::ASKING || settings.question_kinds.is_empty() {
-        return Ok(None);
+        return Ok((None, lesson.clone()));
     }
     asked_by(settings, inputs, &WorldDraws::new(inputs)?, lesson)
 }
@@ -66,13 +69,18 @@ pub(crate) fn asked_by(
     inputs: &WorldInputs<'_>,
     draws: &WorldDraws,
     lesson: &LessonStatus,
-) -> Result<Option<(WorldQuery, LessonStatus)>, String> {
-    let query = ahead_by(settings, inputs, draws, lesson, None, 0)?.pop();
-    Ok(query.map(|query| {
-        let questions_asked = lesson.questions_asked.saturating_add(1);
-        let lesson = LessonStatus { query_id: query.id.clone(), questions_asked, ..lesson.clone() };
-        (query, lesson)
-    }))
+) -> Result<(Option<WorldQuery>, LessonStatus), String> {
+    let Some(query) = ahead_by(settings, inputs, draws, lesson, None, 0)?.pop() else {
+        return Ok((None, lesson.clone()));
+    };
+    // What is drawn at random is asked for another reason; a gain that was not reckoned is NaN, which is not below anything.
+    if !query.held_out && query.gain_per_second < settings.least_gain_per_second {
+        let reason = world_words::not_worth_it(query.gain_per_second, settings.least_gain_per_second);
+        return Ok((None, LessonStatus { state: LessonStatus::GAVE_UP, reason, ..lesson.clone() }));
+    }
+    let questions_asked = lesson.questions_asked.saturating_add(1);
+    let lesson = LessonStatus { query_id: query.id.clone(), questions_asked, ..lesson.clone() };
+    Ok((Some(query), lesson))
 }
 
 /// The open question and at most `n` more to ask after it if the robot has not learned from the answers by then: each is chosen by what
@@ -113,7 +121,10 @@ pub(crate) fn ahead_by(
     let situations = situations(mdp, &mut rng);
     let wrong = |error: InquiryError| error.to_string();
     let optima = &draws.optima;
-    let scoring = Scoring { settings, inputs, draws, optima, map: Policy::Deterministic(draws.map.clone()) };
+    // To confirm a model takes answers that are fair to it.
+    let hold_out_share = if lesson.to_confirm > 0 { ALWAYS } else { settings.hold_out_share };
+    let map = Policy::Deterministic(draws.map.clone());
+    let scoring = Scoring { settings, inputs, draws, optima, map, hold_out_share };
     let steps = usize::try_from(settings.trajectory_steps).unwrap_or(2);
     let ways = Ways { mdp, map: &draws.map, optima, steps, seed: settings.seed.unsigned_abs(), stream };
     let mut branches = Branches::now(scoring.belief().map_err(wrong)?);
@@ -156,6 +167,7 @@ struct Scoring<'a> {
     draws: &'a WorldDraws,
     optima: &'a DrawnOptima,
     map: Policy,
+    hold_out_share: f64,
 }
 
 impl Scoring<'_> {
@@ -330,7 +342,7 @@ impl Scoring<'_> {
         let selecting = Selecting {
             strategy,
             effort: Some(Effort::default()),
-            hold_out_share: self.settings.hold_out_share,
+            hold_out_share: self.hold_out_share,
             seed: self.settings.seed.unsigned_abs(),
         };
         let chosen = match branches.select(&round, &selecting, WORLD_STREAM >> 1 | rests.n as u64, &[])? {

@@ -82,6 +82,25 @@ pub(crate) fn surprised(surprises: u64, n: u64, features: &[String]) -> String {
     )
 }
 
+/// That the bound is good, and still to be confirmed by `n` answers without a surprise.
+pub(crate) fn unconfirmed(reason: &str, n: u32, most: f64, is_over: bool) -> String {
+    let answers = if n == 1 { "1 answer".to_owned() } else { format!("{n} answers") };
+    let end = if is_over { "; raise max_questions" } else { "" };
+    format!(
+        "{reason}, but about {answers} to questions drawn at random, as I expect them, are missing to show that no more than {:.0} % of \
+         your answers would surprise me{end}",
+        100.0 * most
+    )
+}
+
+/// That no question is worth the person's time.
+pub(crate) fn not_worth_it(gain_per_second: f64, least: f64) -> String {
+    format!(
+        "the best question I could ask is expected to tell {gain_per_second:.2e} nats for each second of your time, less than \
+         least_gain_per_second = {least}, and the bound is not good yet"
+    )
+}
+
 /// "path, lawn and mud".
 fn list(names: &[String]) -> String {
     match names {

@@ -79,9 +79,10 @@ impl Worlds {
                 Ok(draws) => {
                     lesson = fitted_by(settings, &inputs, &draws, known.clone()).unwrap_or(lesson);
                     if self.stays(&lesson).is_none() {
-                        asked = asked_by(settings, &inputs, &draws, &lesson);
+                        asked = asked_by(settings, &inputs, &draws, &lesson).map(Some);
                     }
-                    self.draws = (settings.next_within_s > 0.0 && asks).then_some(draws);
+                    let goes_on = lesson.state == LessonStatus::ASKING;
+                    self.draws = (settings.next_within_s > 0.0 && goes_on).then_some(draws);
                 }
                 Err(reason) => asked = Err(reason),
             }
@@ -99,7 +100,7 @@ impl Worlds {
         (self.query, self.ahead) = (None, None);
         let mut outputs = Vec::new();
         match asked {
-            Ok(Some((query, with_question))) => {
+            Ok(Some((Some(query), with_question))) => {
                 let query = Box::new(query);
                 outputs.push(Output::WorldQuery(query.clone()));
                 if settings.next_within_s > 0.0 && settings.questions_ahead > 0 {
@@ -108,6 +109,7 @@ impl Worlds {
                 self.query = Some(query);
                 lesson = with_question;
             }
+            Ok(Some((None, known_better))) => lesson = known_better,
             Ok(None) => {}
             Err(reason) => outputs.extend(self.tell(format!("nothing can be asked about the world: {reason}"))),
         }

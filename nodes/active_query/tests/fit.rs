@@ -164,6 +164,26 @@ fn a_lesson_that_does_not_fit_says_what_to_look_at_and_goes_on_when_that_is_take
 }
 
 #[test]
+fn a_good_bound_may_have_to_be_confirmed_by_answers_to_random_questions() {
+    let settings = Settings { most_surprises: 0.4, ..Settings::default() };
+    let mean = [-0.1, -0.1, -0.1, 0.6];
+    let mut rng = ChaCha8Rng::seed_from_u64(11);
+    let said = records(20, 12, &mean, true, &mut rng);
+    // 1 − .05^(1/n) ≤ .4 from n = 6 on, without a surprise.
+    let none = judged(&settings, said[..8].to_vec(), &mean, RiskBound::BOUND);
+    assert_eq!((none.state, none.held_out, none.to_confirm), (LessonStatus::ASKING, 0, 6));
+    assert!(none.reason.contains("about 6 answers") && none.reason.contains("40 %"), "{}", none.reason);
+    let all = judged(&settings, said.clone(), &mean, RiskBound::BOUND);
+    assert!(all.held_out == 12 && all.surprises <= 2, "{all:?}");
+    assert_eq!((all.state, all.to_confirm), (LessonStatus::TAUGHT, 0));
+    let few = Settings { max_questions: 8, ..settings };
+    // Demonstrations are counted by the posterior, which has three pieces here.
+    let over = judged(&Settings { max_questions: 3, ..few.clone() }, said[..8].to_vec(), &mean, RiskBound::BOUND);
+    assert_eq!(over.state, LessonStatus::GAVE_UP);
+    assert_eq!(judged(&few, said[..8].to_vec(), &mean, RiskBound::BOUND).state, LessonStatus::ASKING);
+}
+
+#[test]
 fn surprises_are_counted_among_answers_to_random_questions_alone() {
     let mean = [-0.1, -0.1, -0.1, 0.6];
     let mut rng = ChaCha8Rng::seed_from_u64(3);

@@ -413,6 +413,31 @@ fn a_person_who_has_waited_for_a_second_is_asked_what_was_chosen_before_and_that
 }
 
 #[test]
+fn a_lesson_that_waits_to_be_confirmed_asks_at_random_and_one_that_is_not_worth_the_time_ends() {
+    let told = |settings: &Settings, bound: f64| {
+        let mut node = ActiveQuery::new(settings.clone());
+        step(&mut node, Event::World(Box::new(message())));
+        step(&mut node, Event::Evidence(Box::new(log(&[]))));
+        step(&mut node, Event::Posterior(Box::new(posterior(0))));
+        step(&mut node, Event::PolicyBounds(Box::new(bounds(0, bound))))
+    };
+    let confirming = Settings { most_surprises: 0.4, ..settings() };
+    let outputs = told(&confirming, 0.05);
+    let [Output::WorldQuery(query), Output::Lesson(lesson), Output::LookAhead] = outputs.as_slice() else {
+        panic!("a question: {outputs:?}")
+    };
+    assert!(query.held_out && query.id.contains(['A', 'K', 'C']), "{}", query.id);
+    assert_eq!((lesson.state, lesson.to_confirm), (LessonStatus::ASKING, 6));
+    let dear = Settings { strategy: Strategy::Information, least_gain_per_second: 10.0, ..settings() };
+    let outputs = told(&dear, 0.5);
+    let [Output::Lesson(lesson)] = outputs.as_slice() else { panic!("no question: {outputs:?}") };
+    assert!(lesson.state == LessonStatus::GAVE_UP && lesson.reason.contains("least_gain_per_second"), "{lesson:?}");
+    // A strategy that reckons no gain has none that is too small.
+    let var = told(&Settings { strategy: Strategy::Var, ..dear }, 0.5);
+    assert!(matches!(var.first(), Some(Output::WorldQuery(_))), "{var:?}");
+}
+
+#[test]
 fn so_many_are_asked_ahead_and_a_lesson_that_is_over_ends_them() {
     let settings = Settings { questions_ahead: 2, ..settings() };
     let (mut node, first) = asking(&settings);
@@ -451,7 +476,8 @@ fn the_first_of_the_questions_ahead_is_the_open_one_and_the_rest_are_chosen_as_i
     let (posterior, world, log, bounds) = (posterior(0), world(), log(&[]), bounds(0, 0.5));
     let inputs = WorldInputs { posterior: &posterior, world: &world, log: &log, bounds: &bounds };
     let lesson = world_lesson(&settings(), &posterior, &bounds).expect("a lesson");
-    let (open, _) = world_question(&settings(), &inputs, &lesson).expect("inputs that fit").expect("a question");
+    let (open, _) = world_question(&settings(), &inputs, &lesson).expect("inputs that fit");
+    let open = open.expect("a question");
     let all = questions_ahead(&settings(), &inputs, &lesson, None, 3).expect("inputs that fit");
     assert_eq!((to_cdr(&all[0]), all.len()), (to_cdr(&open), 4));
     let kinds: Vec<u8> = all.iter().map(|query| query.kind).collect();

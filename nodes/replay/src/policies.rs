@@ -38,7 +38,7 @@ pub(crate) fn said(recording: &Recording, lesson: &Lesson, revision: u64) -> Sai
     let is_overtaken =
         recording.world_query.range(revision + 1..).any(|(_, asked)| asked.iter().any(|(query, _)| query.ahead > 0));
     for (inputs, state) in judged(recording, lesson, revision) {
-        let asked = inputs.and_then(|inputs| world_question(settings, &inputs, &state).ok().flatten());
+        let asked = inputs.and_then(|inputs| world_question(settings, &inputs, &state).ok());
         if state.state == LessonStatus::ASKING {
             let stays = |query: &WorldQuery| LessonStatus {
                 query_id: query.id.clone(),
@@ -48,7 +48,7 @@ pub(crate) fn said(recording: &Recording, lesson: &Lesson, revision: u64) -> Sai
             said.states.extend(ahead.iter().map(stays));
             said.states.extend(is_overtaken.then(|| state.clone()));
         }
-        let (query, state) = asked.map_or((None, state), |(query, state)| (Some(query), state));
+        let (query, state) = asked.unwrap_or((None, state));
         said.queries.extend(query);
         said.states.push(state);
     }

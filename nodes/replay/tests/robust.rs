@@ -105,7 +105,7 @@ fn session() -> Bag {
             let inputs = active_query::WorldInputs { posterior, world: &of, log, bounds: &judged };
             let state = active_query::fitted(&settings, &inputs, state).expect("it fits together");
             let asked = active_query::world_question(&settings, &inputs, &state).expect("it fits together");
-            let (query, state) = asked.expect("the lesson goes on");
+            let (query, state) = (asked.0.expect("the lesson goes on"), asked.1);
             record(&mut bag, "world_query", &query);
             record(&mut bag, "lesson", &state);
         }
