@@ -22,5 +22,5 @@ pub use node::{ActiveQuery, Event, Output};
 pub use run::run;
 pub use settings::{QuestionKind, Settings, Strategy};
 pub use world_fit::fitted;
-pub use world_lesson::world_lesson;
+pub use world_lesson::{unjudged, world_lesson};
 pub use world_question::{WorldInputs, questions_ahead, world_question};

@@ -5,7 +5,7 @@ use crate::{Settings, Strategy, asking, wishes, words};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
     Candidates, EvidenceLog, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, PolicyBounds, Posterior,
-    TabularWorld, WorldQuery,
+    RobustPolicy, TabularWorld, WorldQuery,
 };
 use exchange::{is_about_a_table, scene_from_message, scene_to_message};
 use inquiry::{Choice, Judged, candidates, choose};
@@ -24,6 +24,8 @@ pub enum Event {
     Bounds(Box<PerformanceBounds>),
     /// Bounds on policies: in a lesson about a world, what is known of the robot's.
     PolicyBounds(Box<PolicyBounds>),
+    /// The robot's policy in a lesson about a world, or why there is none.
+    Policy(Box<RobustPolicy>),
     /// A world, perhaps that of the lesson.
     World(Box<TabularWorld>),
     /// Everything accepted so far: what was asked about a world before is in it.
@@ -83,6 +85,10 @@ impl ActiveQuery {
             Event::Bounds(bounds) => self.bounds(&bounds),
             Event::PolicyBounds(bounds) => {
                 self.worlds.take_bounds(bounds);
+                self.world()
+            }
+            Event::Policy(policy) => {
+                self.worlds.take_policy(&policy);
                 self.world()
             }
             Event::World(world) => {

@@ -17,6 +17,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
     bus.subscribe("bounds", Qos::State, |message| Event::Bounds(Box::new(message)))?;
     bus.subscribe("policy_bounds", Qos::State, |message| Event::PolicyBounds(Box::new(message)))?;
+    bus.subscribe("robust_policy", Qos::State, |message| Event::Policy(Box::new(message)))?;
     bus.subscribe("world", Qos::State, |message| Event::World(Box::new(message)))?;
     bus.subscribe("lesson_world", Qos::State, |message| Event::World(Box::new(message)))?;
     bus.subscribe("evidence", Qos::State, |message| Event::Evidence(Box::new(message)))?;

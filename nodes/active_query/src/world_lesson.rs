@@ -1,7 +1,7 @@
 //! Where a lesson about a world stands: over when what the robot's policy may lose is small.
 
 use crate::{Settings, wishes};
-use apprentice_msgs::msg::{LessonStatus, PolicyBounds, Posterior, RiskBound};
+use apprentice_msgs::msg::{LessonStatus, PolicyBound, PolicyBounds, Posterior, RiskBound, RobustPolicy};
 use exchange::{ROBUST_POLICY, is_about_a_table, robust_set_id};
 
 /// The state of a lesson about a world, from bounds on the robot's policy under the posterior; none when the lesson is about a
@@ -69,6 +69,37 @@ pub fn world_lesson(settings: &Settings, posterior: &Posterior, bounds: &PolicyB
         epsilon_loss: goal,
         misfit_p: f64::NAN,
         ..LessonStatus::default()
+    })
+}
+
+/// What stands for bounds on a robot's policy that there is none of: nobody judges it, and the lesson goes on without a bound, for the
+/// policy's reason. `None` for a policy that will be judged.
+pub fn unjudged(policy: &RobustPolicy) -> Option<PolicyBounds> {
+    if policy.outcome == RobustPolicy::OPTIMAL {
+        return None;
+    }
+    let none = || RiskBound {
+        outcome: RiskBound::NOT_JUDGED,
+        bound: f64::NAN,
+        point_estimate: f64::NAN,
+        reason: policy.reason.clone(),
+        ..RiskBound::default()
+    };
+    let robust = PolicyBound {
+        id: ROBUST_POLICY.to_owned(),
+        return_bound: none(),
+        loss_bound: none(),
+        normalised_loss: none(),
+        ..PolicyBound::default()
+    };
+    Some(PolicyBounds {
+        header: policy.header.clone(),
+        revision: policy.revision,
+        evidence_hash: policy.evidence_hash.clone(),
+        set_id: robust_set_id(policy.revision, policy.preference_number),
+        policies: vec![robust],
+        alpha: policy.alpha,
+        ..PolicyBounds::default()
     })
 }
 

@@ -5,8 +5,10 @@ use crate::node::Output;
 use crate::world_draws::WorldDraws;
 use crate::world_fit::{fitted_by, is_judged};
 use crate::world_question::{ahead_by, asked_by};
-use crate::{Settings, WorldInputs, world_lesson};
-use apprentice_msgs::msg::{EvidenceLog, LessonStatus, PolicyBounds, Posterior, TabularWorld, WorldQuery};
+use crate::{Settings, WorldInputs, unjudged, world_lesson};
+use apprentice_msgs::msg::{
+    EvidenceLog, LessonStatus, PolicyBounds, Posterior, RobustPolicy, TabularWorld, WorldQuery,
+};
 use apprentice_msgs::to_cdr;
 use exchange::{MAX_ID, World, world_from_message, world_hash};
 
@@ -38,6 +40,17 @@ impl Worlds {
 
     pub fn take_bounds(&mut self, bounds: Box<PolicyBounds>) {
         self.bounds = Some(bounds);
+    }
+
+    /// A policy that nobody will judge stands for its own bounds, unless another of its revision was judged.
+    pub fn take_policy(&mut self, policy: &RobustPolicy) {
+        let is_judged = self
+            .bounds
+            .as_ref()
+            .is_some_and(|bounds| (bounds.revision, &bounds.evidence_hash) == (policy.revision, &policy.evidence_hash));
+        if !is_judged && let Some(bounds) = unjudged(policy) {
+            self.bounds = Some(Box::new(bounds));
+        }
     }
 
     pub fn take_log(&mut self, log: Box<EvidenceLog>) {

@@ -1,9 +1,9 @@
 //! Whether what was said fits the features: told when it does not, and hardly ever when it does.
 
-use active_query::{Settings, WorldInputs, fitted, world_lesson};
+use active_query::{ActiveQuery, Event, Output, Settings, WorldInputs, fitted, world_lesson};
 use apprentice_msgs::msg::{
     ActionDemonstration, CritiqueSegment, EvidenceLog, EvidenceRecord, FeatureTrajectory, LessonStatus, PolicyBound,
-    PolicyBounds, Posterior, Rationality, RiskBound, SegmentCritique, TrajectoryPreference,
+    PolicyBounds, Posterior, Rationality, RiskBound, RobustPolicy, SegmentCritique, TrajectoryPreference,
 };
 use exchange::{Picture, World, world_from_message, world_to_message};
 use mdp::Solver;
@@ -236,4 +236,49 @@ fn critiques_and_comparisons_count_too() {
     assert!(
         judged_one(marked((best + 2) % 4, CritiqueSegment::GOOD)) < judged_one(marked(best, CritiqueSegment::GOOD))
     );
+}
+
+#[test]
+fn a_lesson_without_a_policy_goes_on_and_says_why_there_is_none() {
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    let mean = [-0.1, -0.1, -0.1, 0.6];
+    let world = world();
+    let message = world_to_message("yard", &world.feature_names, &world.mdp, Picture::Cells { rows: 4, columns: 4 });
+    let mut node = ActiveQuery::new(Settings::default());
+    let mut step = |event: Event| node.step(Default::default(), event);
+    step(Event::World(Box::new(message)));
+    step(Event::Evidence(Box::new(EvidenceLog {
+        records: records(1, 0, &mean, true, &mut rng),
+        ..EvidenceLog::default()
+    })));
+    step(Event::Posterior(Box::new(posterior(&mean, 0.1, 1, &mut rng))));
+    let policy = |outcome: u8, reason: &str| {
+        let (reason, evidence_hash) = (reason.to_owned(), "h".to_owned());
+        Event::Policy(Box::new(RobustPolicy {
+            revision: 1,
+            evidence_hash,
+            outcome,
+            reason,
+            alpha: 0.95,
+            ..Default::default()
+        }))
+    };
+    assert!(step(policy(RobustPolicy::OPTIMAL, "it promises much")).is_empty(), "its bounds are on their way");
+    let outputs = step(policy(RobustPolicy::NOT_COMPUTED, "no policy, because the chains disagree"));
+    let [Output::WorldQuery(_), Output::Lesson(lesson), Output::LookAhead] = outputs.as_slice() else {
+        panic!("a question: {outputs:?}")
+    };
+    assert_eq!(
+        (lesson.state, lesson.reason.as_str()),
+        (LessonStatus::ASKING, "no policy, because the chains disagree")
+    );
+    assert!(lesson.loss_bound.is_nan() && lesson.misfit_p.is_nan());
+    assert!(step(policy(RobustPolicy::NOT_COMPUTED, "no policy, because the chains disagree")).is_empty(), "told once");
+    // What is judged counts, and what is not judged does not take that back.
+    let outputs = step(Event::PolicyBounds(Box::new(bounds(1, RiskBound::BOUND))));
+    assert!(
+        matches!(outputs.as_slice(), [Output::Lesson(lesson)] if lesson.state == LessonStatus::TAUGHT),
+        "{outputs:?}"
+    );
+    assert!(step(policy(RobustPolicy::ITERATION_LIMIT, "too few steps")).is_empty());
 }

@@ -63,8 +63,9 @@ fn judged<'a>(
     revision: u64,
 ) -> impl Iterator<Item = (Option<WorldInputs<'a>>, LessonStatus)> {
     let known = lesson.query.as_ref().zip(lesson.round(revision));
-    let bounds = recording.policy_bounds.get(&revision).into_iter().flatten();
-    bounds.filter_map(move |(bounds, _)| {
+    let judged = recording.policy_bounds.get(&revision).into_iter().flatten().map(|(bounds, _)| bounds);
+    let unjudged = recording.unjudged.get(&revision).into_iter().flatten();
+    judged.chain(unjudged).filter_map(move |bounds| {
         let (settings, round) = known?;
         let posterior = &round.posterior;
         let state = world_lesson(settings, posterior, bounds)?;

@@ -1,6 +1,7 @@
 //! What a bag holds of a session, sorted by what it is.
 
 use crate::ReplayError;
+use active_query::unjudged;
 use apprentice_msgs::msg::{
     Candidates, EvidenceLog, LessonStatus, NodeSettings, PerformanceBounds, PlacementPlan, PlacementQuery,
     PolicyBounds, PolicyFrontier, PolicySet, Posterior, PosteriorPreview, RiskPreference, RobustPolicy, TabularWorld,
@@ -26,6 +27,8 @@ pub struct Recording {
     pub policy_bounds: Recorded<PolicyBounds>,
     /// Sets of policies, as often as they differ.
     pub policies: Vec<PolicySet>,
+    /// What stands for bounds on recorded robust policies that nobody judges.
+    pub(crate) unjudged: BTreeMap<u64, Vec<PolicyBounds>>,
     /// Recorded robust policies.
     pub robust_policy: Recorded<RobustPolicy>,
     /// Recorded frontiers.
@@ -111,7 +114,15 @@ impl Recording {
                 }
                 Ok(())
             }
-            RobustPolicy::TYPE => insert(&mut self.robust_policy, topic, index, cdr, |m| m.revision),
+            RobustPolicy::TYPE => {
+                let policy: RobustPolicy = decode(topic, index, cdr)?;
+                let known = self.unjudged.entry(policy.revision).or_default();
+                // It is sent again and again.
+                let is_new = |bounds: &PolicyBounds| !known.iter().any(|known| to_cdr(known) == to_cdr(bounds));
+                let new = unjudged(&policy).filter(is_new);
+                known.extend(new);
+                insert(&mut self.robust_policy, topic, index, cdr, |m| m.revision)
+            }
             PolicyFrontier::TYPE => insert(&mut self.frontier, topic, index, cdr, |m| m.revision),
             RiskPreference::TYPE => {
                 let said: RiskPreference = decode(topic, index, cdr)?;
