@@ -10,7 +10,7 @@ import { drawReport } from "./report.js";
 import { Session, lessonStart } from "./session.js";
 import { TableView } from "./table.js";
 import { drawTrend } from "./trend.js";
-import { ANSWER, ANSWERS, BAR, CARRY, GAUGE, LINK, QUESTION, STATES, TABLE, fillWords } from "./words.js";
+import { ANSWER, ANSWERS, BAR, CARRY, GAUGE, LINK, QUESTION, STATES, TABLE, fillWords, sentence } from "./words.js";
 import { WorldLesson } from "./world.js";
 
 const $ = (id) => document.getElementById(id);
@@ -209,7 +209,6 @@ function render() {
   renderConnection();
 }
 
-const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
 
 function renderLesson() {
   const { question, lesson, bounds, posterior } = state, name = scene()?.target.label ?? QUESTION.it, word = lessonState();

@@ -4,7 +4,8 @@
 export const LANGUAGE = "en";
 
 const cm1 = (m) => (100 * m).toFixed(1);
-const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
+/** With a capital letter. */
+export const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
 
 // ---- the bar at the top -------------------------------------------------------------------------------------------
 

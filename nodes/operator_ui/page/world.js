@@ -11,10 +11,9 @@ import { drawRoad, roadWords } from "./road.js";
 import { lessonStart } from "./session.js";
 import { drawTrend } from "./trend.js";
 import { drawWeights } from "./weights.js";
-import { ANSWER, ANSWERS, BAR, CAUTION, GAUGE, QUESTION, RECEIPT, WORDS, WORLD } from "./words.js";
+import { ANSWER, ANSWERS, BAR, CAUTION, GAUGE, QUESTION, RECEIPT, WORDS, WORLD, sentence } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
-const sentence = (words) => (words ? words[0].toUpperCase() + words.slice(1) : "");
 
 function text(id, words, value) {
   const node = $(id);
@@ -119,7 +118,7 @@ export class WorldLesson {
     text("world-kicker", asking ? QUESTION.number(lesson?.questions_asked) : WORDS.lesson);
     text("world-name", asking ? question.id : world.id);
     text("world-title", asked ?? WORLD.titles[lesson?.state] ?? QUESTION.moment);
-    text("world-why", why ?? "");
+    text("world-why", why ?? (lesson && !["asking", "unknown"].includes(lesson.state) ? sentence(lesson.reason) : ""));
     text("answers-left", lesson?.state === "asking" ? this.left() : "");
     const bound = lesson?.loss_bound ?? null, goal = lesson?.epsilon_loss ?? null;
     text("loss-bound", bound === null ? (lesson ? GAUGE.none : "–") : percent(bound), bound);
@@ -127,7 +126,7 @@ export class WorldLesson {
     text("loss-goal", goal === null ? "–" : percent(goal), goal);
     const full = Math.max(bound ?? 0, (goal ?? 0.1) * 2) * 1.05;
     $("loss-fill").style.width = `${bound === null ? 100 : Math.min(100, (100 * bound) / full)}%`;
-    $("loss-gauge").dataset.state = bound === null ? "none" : goal !== null && bound < goal ? "below" : "above";
+    $("loss-gauge").dataset.state = bound === null ? "none" : goal !== null && bound < goal && lesson?.state !== "misfit" ? "below" : "above";
     $("loss-mark").style.left = `${(100 * (goal ?? 0)) / full}%`;
     $("loss-gauge").setAttribute("aria-label", GAUGE.lossLabel(bound === null ? null : percent(bound), percent(goal)));
     const thinking = asking && !question.open && lesson?.state === "asking";

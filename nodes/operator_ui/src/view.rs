@@ -159,6 +159,7 @@ pub(crate) fn lesson_view(message: &LessonStatus) -> LessonView {
             LessonStatus::GAVE_UP => "gave_up",
             LessonStatus::PAUSED => "paused",
             LessonStatus::FINISHED => "finished",
+            LessonStatus::MISFIT => "misfit",
             _ => "unknown",
         },
         reason: message.reason.clone(),

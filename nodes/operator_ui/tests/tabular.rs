@@ -203,6 +203,24 @@ fn weights_and_the_history_of_the_loss_are_told_in_a_lesson_about_a_world_only()
     let points: Vec<_> = trend.iter().map(|point| (point["revision"].clone(), point["bound"].clone())).collect();
     assert_eq!(points, [(json!(0), json!(null)), (json!(1), json!(0.4))]);
     assert_eq!(table.shown["lesson"]["loss_bound"], 0.4);
+    // Evidence that does not fit is named, and not without end.
+    let misfits: Vec<String> = (0..40).map(|i| format!("e{i}")).collect();
+    let doubted = LessonStatus {
+        revision: 2,
+        state: LessonStatus::MISFIT,
+        held_out: 7,
+        surprises: 5,
+        misfit_p: 0.0005,
+        misfits,
+        ..LessonStatus::default()
+    };
+    table.hear(Event::Lesson(Box::new(doubted)));
+    let shown = &table.shown["lesson"];
+    assert_eq!((&shown["state"], &shown["held_out"], &shown["surprises"]), (&json!("misfit"), &json!(7), &json!(5)));
+    assert_eq!(
+        (&shown["misfit_p"], &shown["misfits"][15], shown["misfits"].get(16)),
+        (&json!(0.0005), &json!("e15"), None)
+    );
 
     let mut set = Table::asking(3);
     assert_eq!(set.shown.get("loss_trend"), None);
