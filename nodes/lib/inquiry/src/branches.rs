@@ -1,4 +1,6 @@
-//! What may be believed once open questions are answered: one belief for every combination of answers.
+//! What may be believed once open questions are answered, one belief for every combination of answers: so that several questions can
+//! be chosen together, or the next one while the person thinks. Questions that would tell the same are not asked twice, and expected
+//! scores that are information add up to the joint information (chain rule).
 
 use crate::select::select_by;
 use crate::strategy::scores;

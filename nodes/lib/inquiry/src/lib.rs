@@ -23,7 +23,6 @@
 
 mod action_entropy;
 mod answers;
-mod batch;
 mod belief;
 mod branches;
 mod candidates;
@@ -45,7 +44,6 @@ mod value_at_risk;
 
 pub use action_entropy::action_entropy;
 pub use answers::{Answers, MAX_STEPS};
-pub use batch::{Prefetched, batch, prefetch};
 pub use belief::Belief;
 pub use branches::Branches;
 pub use candidates::candidates;

@@ -4,7 +4,7 @@ use mdp::random::{index, uniform};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::{Belief, Effort, InquiryError, Round, Strategy, scores};
+use crate::{Effort, InquiryError, Round, Strategy, scores};
 
 /// Gains at or below this are rounding.
 const NOTHING: f64 = 1e-12;
@@ -62,22 +62,11 @@ impl Selection {
 /// # Errors
 /// Parts that do not fit together, a share outside [0, 1), times that are not positive.
 pub fn select(round: &Round, selecting: &Selecting, look: u64) -> Result<Selection, InquiryError> {
-    select_under(round, &round.belief, selecting, look, &[])
+    let scores = scores(round, &round.belief, selecting.strategy)?;
+    select_by(round, &scores, selecting, look, &[])
 }
 
-/// The same under another belief, and without the questions `asked` already.
-pub(crate) fn select_under(
-    round: &Round,
-    belief: &Belief,
-    selecting: &Selecting,
-    look: u64,
-    asked: &[usize],
-) -> Result<Selection, InquiryError> {
-    let scores = scores(round, belief, selecting.strategy)?;
-    select_by(round, &scores, selecting, look, asked)
-}
-
-/// The same with scores that are known.
+/// The same with scores that are known, and without the questions `asked` already.
 pub(crate) fn select_by(
     round: &Round,
     scores: &[f64],

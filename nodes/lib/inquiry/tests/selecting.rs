@@ -1,8 +1,8 @@
-//! What is chosen from scores: feasible questions, cheap ones, some at random, several at once, and the next for every answer.
+//! What is chosen from scores: feasible questions, cheap ones, some at random, and several at once.
 
 use inquiry::{
-    Alternatives, Answers, Belief, Effort, InquiryError, Losses, Objective, Question, QuestionKind, Round, Selecting,
-    Selection, Strategy, batch, class_information, prefetch, risk_information, scores, select,
+    Alternatives, Answers, Belief, Branches, Chosen, Effort, InquiryError, Losses, Objective, Question, QuestionKind,
+    Round, Selecting, Selection, Strategy, class_information, risk_information, scores, select,
 };
 use proptest::prelude::{prop_assert, proptest};
 
@@ -143,6 +143,19 @@ fn a_share_of_questions_is_held_out() {
     assert!(select(&round, &Selecting { hold_out_share: 1.0, ..some }, 1).is_err());
 }
 
+/// Questions worth asking together: each by its expected score once those before it are answered.
+fn batch(round: &Round, selecting: &Selecting, look: u64, n: usize) -> Result<Vec<Chosen>, InquiryError> {
+    let (mut chosen, mut asked): (Vec<Chosen>, Vec<usize>) = (Vec::new(), Vec::new());
+    let mut branches = Branches::now(round.belief.clone());
+    while chosen.len() < n {
+        let Selection::Ask(next) = branches.select(round, selecting, look, &asked)? else { break };
+        branches = branches.after(&round.questions[next.question].answers, 64);
+        asked.push(next.question);
+        chosen.push(next);
+    }
+    Ok(chosen)
+}
+
 #[test]
 fn a_batch_does_not_ask_the_same_twice() {
     let round = round();
@@ -155,24 +168,6 @@ fn a_batch_does_not_ask_the_same_twice() {
     assert_eq!(questions(Strategy::RewardInformation, 9), [0, 2, 1]);
     assert_eq!(questions(Strategy::Random, 3).len(), 3);
     assert_eq!(questions(Strategy::RewardInformation, 0), Vec::<usize>::new());
-}
-
-#[test]
-fn the_next_question_is_at_hand_for_every_answer() {
-    let round = round();
-    let strategy = by(Strategy::RewardInformation);
-    let next = prefetch(&round, &strategy, 1, 0, 0.0).expect("a question");
-    assert_eq!(next.iter().map(|next| next.answer).collect::<Vec<_>>(), [0, 1]);
-    for next in &next {
-        assert!((next.probability - 0.5).abs() < 1e-12);
-        let mut then = round.clone();
-        then.belief =
-            round.belief.after(&round.questions[0].answers.likelihood(next.answer).expect("fits")).expect("possible");
-        let scores = scores(&then, &then.belief, Strategy::RewardInformation).expect("fits");
-        assert_eq!(asked(next.selection), if scores[1] > scores[2] { 1 } else { 2 });
-    }
-    assert!(prefetch(&round, &strategy, 1, 0, 0.6).expect("a question").is_empty());
-    assert!(prefetch(&round, &strategy, 1, 3, 0.0).is_err());
 }
 
 #[test]
