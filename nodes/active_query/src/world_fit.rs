@@ -8,7 +8,10 @@ use crate::{Settings, WorldInputs};
 use apprentice_msgs::msg::{EvidenceRecord, LessonStatus, TrajectoryPreference};
 use exchange::{Confidence, confidence_from_message, in_force, marks_from_message, record_id, steps_from_message};
 use inquiry::tabular::{Answering, comparison_answers, distinct};
-use inquiry::{Answered, Answers, Belief, HoldOut, InquiryError, MAX_STEPS, is_surprise, predictive_check};
+use inquiry::{
+    Answered, Answers, Belief, Chosen, HoldOut, InquiryError, Look, MAX_STEPS, Obstacle, Selection, Standing,
+    StoppingRule, predictive_check,
+};
 use likelihood::preferences::AnswerModel;
 
 /// Answers that are judged, at most: the newest.
@@ -57,47 +60,46 @@ pub(crate) fn fitted_by(
     let check = predictive_check(&answered, &belief, settings.seed.unsigned_abs())?;
     let mut hold_out = HoldOut::default();
     for said in said.iter().filter(|said| asked_at_random(said.record)) {
-        let without = belief_without(said)?;
-        hold_out.n += 1;
-        hold_out.surprises += u64::from(is_surprise(&said.answers, &without, said.given)?);
+        hold_out.add(&said.answers, &belief_without(said)?, said.given)?;
     }
     let number = |n: u64| u32::try_from(n).unwrap_or(u32::MAX);
     (lesson.held_out, lesson.surprises) = (number(hold_out.n), number(hold_out.surprises));
     lesson.misfit_p = check.p_value;
-    let names = &inputs.world.feature_names;
-    let level = settings.misfit_level;
-    let reason = if level > 0.0 && hold_out.refutes(level)? {
-        world_words::surprised(hold_out.surprises, hold_out.n, names)
-    } else if check.warns(level) {
-        world_words::misfit(check.p_value, names)
-    } else {
-        return confirmed(settings, inputs, &hold_out, lesson);
+    let rule = StoppingRule {
+        epsilon: settings.epsilon_loss,
+        delta: inputs.bounds.delta,
+        // Of the question, which is chosen later.
+        least_gain_per_second: 0.0,
+        most_surprises: settings.most_surprises,
+        // Where it is switched off, nothing is that improbable.
+        misfit_level: settings.misfit_level.max(f64::MIN_POSITIVE),
     };
-    let mut worst: Vec<String> = check.worst.iter().map(|&at| record_id(said[at].record).to_owned()).collect();
-    worst.dedup();
-    lesson.state = LessonStatus::MISFIT;
-    lesson.reason = reason;
-    lesson.misfits = worst;
-    Ok(lesson)
-}
-
-/// A lesson whose bound is good goes on until answers to random questions show that surprises are few enough.
-fn confirmed(
-    settings: &Settings,
-    inputs: &WorldInputs<'_>,
-    hold_out: &HoldOut,
-    mut lesson: LessonStatus,
-) -> Result<LessonStatus, InquiryError> {
-    if lesson.state != LessonStatus::TAUGHT {
-        return Ok(lesson);
+    let bounds = [Some(lesson.loss_bound)];
+    let fit = Some(&check).filter(|_| settings.misfit_level > 0.0);
+    let next = Selection::Ask(Chosen { question: 0, score: 0.0, per_second: None, is_hold_out: false });
+    let names = &inputs.world.feature_names;
+    match rule.standing(&Look { bounds: &bounds, next: &next, drop: None, hold_out, fit })? {
+        Standing::CannotBeReached { because, .. } => {
+            lesson.state = LessonStatus::MISFIT;
+            lesson.reason = match because {
+                Obstacle::Surprises { hold_out, .. } => world_words::surprised(hold_out.surprises, hold_out.n, names),
+                _ => world_words::misfit(check.p_value, names),
+            };
+            for &at in &check.worst {
+                let id = record_id(said[at].record).to_owned();
+                if !lesson.misfits.contains(&id) {
+                    lesson.misfits.push(id);
+                }
+            }
+        }
+        Standing::Confirming { about, .. } => {
+            lesson.to_confirm = about;
+            let is_over = i64::from(lesson.demonstrations) >= settings.max_questions;
+            lesson.state = if is_over { LessonStatus::GAVE_UP } else { LessonStatus::ASKING };
+            lesson.reason = world_words::unconfirmed(&lesson.reason, about, settings.most_surprises, is_over);
+        }
+        Standing::Taught { .. } | Standing::NotYet { .. } => {}
     }
-    lesson.to_confirm = hold_out.missing(settings.most_surprises, inputs.bounds.delta)?;
-    if lesson.to_confirm == 0 {
-        return Ok(lesson);
-    }
-    let is_over = i64::from(lesson.demonstrations) >= settings.max_questions;
-    lesson.state = if is_over { LessonStatus::GAVE_UP } else { LessonStatus::ASKING };
-    lesson.reason = world_words::unconfirmed(&lesson.reason, lesson.to_confirm, settings.most_surprises, is_over);
     Ok(lesson)
 }
 
