@@ -9,8 +9,8 @@ import { drawReceipt } from "./receipt.js";
 import { drawReport } from "./report.js";
 import { Session, lessonStart } from "./session.js";
 import { TableView } from "./table.js";
-import { drawTrend } from "./trend.js";
-import { ANSWER, ANSWERS, BAR, CARRY, GAUGE, LINK, QUESTION, STATES, TABLE, fillWords, sentence } from "./words.js";
+import { answersLeft, drawTrend } from "./trend.js";
+import { ANSWER, ANSWERS, BAR, CARRY, GAUGE, LINK, PROGRESS, QUESTION, STATES, TABLE, fillWords, sentence } from "./words.js";
 import { WorldLesson } from "./world.js";
 
 const $ = (id) => document.getElementById(id);
@@ -235,6 +235,7 @@ function renderLesson() {
   $("gauge-goal").style.left = `${(100 * (epsilon ?? 0)) / full}%`;
   $("gauge").setAttribute("aria-label", GAUGE.label(cm(bound), cm(epsilon)));
   text("claim", bounds?.reason ?? "");
+  text("placements-left", word === "asking" ? PROGRESS.left(lesson.demonstrations || null, answersLeft(thisLesson().map((point) => ({ revision: point.revision, bound: point.bound_m })), epsilon)) : "");
 }
 
 function renderTable() {
@@ -329,8 +330,10 @@ function renderGuess(map, shown, name) {
   text("guess-distance", words, distance);
 }
 
+const thisLesson = () => state.trend.filter((point) => point.revision >= lessonStart(state.answers));
+
 function renderProgress() {
-  drawTrend($("trend"), state.trend.filter((point) => point.revision >= lessonStart(state.answers)), $("log-scale").checked);
+  drawTrend($("trend"), thisLesson(), $("log-scale").checked);
   drawReceipt($("receipt-list"), state.bounds);
   $("receipt").hidden = !state.bounds;
 }

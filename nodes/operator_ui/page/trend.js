@@ -50,3 +50,17 @@ function gridValues(top, bottom, logarithmic) {
   const step = [1, 2, 5, 10, 20, 25, 50, 100, 200, 500, 1000].find((s) => top / s <= 4.5) ?? 5000;
   return Array.from({ length: Math.floor(top / step) + 1 }, (_, i) => i * step);
 }
+
+/**
+ * How many more answers it may take: the fall of the bound so far, as a straight line of its logarithm, drawn on to the goal. `points` are
+ * { revision, bound }; null while too little is known, Infinity where the bound does not fall.
+ */
+export function answersLeft(points, goal) {
+  const known = points.filter((point) => point.bound > 0);
+  if (known.length < 4 || !goal) return null;
+  const recent = known.slice(-16), x = recent.map((point) => point.revision), y = recent.map((point) => Math.log(point.bound));
+  const mean = (v) => v.reduce((a, b) => a + b, 0) / v.length, mx = mean(x), my = mean(y);
+  const slope = x.reduce((sum, v, i) => sum + (v - mx) * (y[i] - my), 0) / Math.max(1e-9, x.reduce((sum, v) => sum + (v - mx) ** 2, 0));
+  const now = my + slope * (x[x.length - 1] - mx);
+  return slope < -1e-4 ? Math.max(1, (now - Math.log(goal)) / -slope) : Infinity;
+}

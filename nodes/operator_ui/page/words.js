@@ -161,6 +161,7 @@ export const ANSWERS = {
 
 /** How the bound fell. */
 export const PROGRESS = {
+  left: (answered, most) => (answered === null ? "" : most === null ? `${answered} given so far.` : most > 200 ? `${answered} given so far; it may take very many more.` : `${answered} given so far; at this pace about ${most <= 1 ? "one more" : `${Math.max(1, Math.round(most / 2))} to ${Math.round(most * 1.5)} more`}.`),
   title: "How sure the robot is",
   log: "log",
   label: "Bound against the goal, per revision",
@@ -389,7 +390,6 @@ export const WORDS = {
     comparison: (world, q) => q.ways.map((way, i) => `Way ${LETTERS[i]}: ${wayWords(world, way).moves}, over ${wayWords(world, way).over || "nothing named"}.`).join(" "),
   },
   hidden: "What I would do is hidden until you have answered.",
-  range: (answered, most) => (answered === null ? "" : most === null ? `${answered} given so far.` : most > 200 ? `${answered} given so far; it may take very many more.` : `${answered} given so far; at this pace about ${most <= 1 ? "one more" : `${Math.max(1, Math.round(most / 2))} to ${Math.round(most * 1.5)} more`}.`),
   answer: (world, answer) => {
     if (answer.kind === "actions" && answer.step && answer.step[1] < world.actions.length && answer.step[0] < world.n_states) return `${world.actions[answer.step[1]]} in ${placeWords(world, answer.step[0]).replace(/^in /, "")}`;
     if (answer.kind === "preference" && answer.said) return { ranked: "Chose the better of two ways", equal: "Two ways are about equal", cant_tell: "Can't tell which of two ways is better" }[answer.said];

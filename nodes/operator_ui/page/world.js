@@ -9,9 +9,9 @@ import { COMMON, drawReceipt } from "./receipt.js";
 import { asARule, number, percent, worstCase } from "./risk.js";
 import { drawRoad, roadWords } from "./road.js";
 import { lessonStart } from "./session.js";
-import { drawTrend } from "./trend.js";
+import { answersLeft, drawTrend } from "./trend.js";
 import { drawWeights } from "./weights.js";
-import { ANSWER, ANSWERS, BAR, CAUTION, GAUGE, QUESTION, RECEIPT, WORDS, WORLD, sentence } from "./words.js";
+import { ANSWER, ANSWERS, BAR, CAUTION, GAUGE, PROGRESS, QUESTION, RECEIPT, WORDS, WORLD, sentence } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 
@@ -119,7 +119,7 @@ export class WorldLesson {
     text("world-name", asking ? question.id : world.id);
     text("world-title", asked ?? WORLD.titles[lesson?.state] ?? QUESTION.moment);
     text("world-why", why ?? (lesson && !["asking", "unknown"].includes(lesson.state) ? sentence(lesson.reason) : ""));
-    text("answers-left", lesson?.state === "asking" ? this.left() : "");
+    text("answers-left", lesson?.state === "asking" ? PROGRESS.left(lesson.demonstrations || null, answersLeft(this.trend(), lesson.epsilon_loss)) : "");
     const bound = lesson?.loss_bound ?? null, goal = lesson?.epsilon_loss ?? null;
     text("loss-bound", bound === null ? (lesson ? GAUGE.none : "–") : percent(bound), bound);
     $("loss-bound").dataset.revision = lesson?.revision ?? "";
@@ -132,17 +132,6 @@ export class WorldLesson {
     const thinking = asking && !question.open && lesson?.state === "asking";
     $("world-veil").hidden = Boolean(policy) && !thinking;
     text("world-veil-text", thinking ? QUESTION.thinking : WORLD.thinking);
-  }
-
-  /** How many more answers it may take: the bound's fall so far, as a straight line of its logarithm, drawn on to the goal. */
-  left() {
-    const { lesson } = this.state, known = this.trend().filter((p) => p.bound > 0), given = lesson.demonstrations;
-    if (known.length < 4 || !lesson.epsilon_loss) return WORDS.range(given || null, null);
-    const recent = known.slice(-16), x = recent.map((p) => p.revision), y = recent.map((p) => Math.log(p.bound));
-    const mean = (v) => v.reduce((a, b) => a + b, 0) / v.length, mx = mean(x), my = mean(y);
-    const slope = x.reduce((sum, v, i) => sum + (v - mx) * (y[i] - my), 0) / Math.max(1e-9, x.reduce((sum, v) => sum + (v - mx) ** 2, 0));
-    const now = my + slope * (x[x.length - 1] - mx), most = slope < -1e-4 ? (now - Math.log(lesson.epsilon_loss)) / -slope : Infinity;
-    return WORDS.range(given, Math.max(1, most));
   }
 
   renderPolicy() {
