@@ -77,6 +77,7 @@ fn is_asked(bag: &Recorded) {
     for kind in [WorldQuery::ACTION, WorldQuery::CRITIQUE, WorldQuery::COMPARISON] {
         assert!(asked.iter().any(|query| query.kind == kind), "no question of kind {kind}");
     }
+    assert!(asked.iter().all(|query| query.ahead == 0), "a simulated person waits for the robot");
     let find = |id: &str| asked.iter().find(|query| query.id == id);
     let shown = bag.distinct::<ActionDemonstration>("action_demonstration");
     let (unasked, acted): (Vec<_>, Vec<_>) = shown.iter().partition(|answer| answer.query_id.is_empty());

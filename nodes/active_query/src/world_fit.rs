@@ -144,7 +144,8 @@ fn said<'a>(inputs: &WorldInputs<'a>, draws: &WorldDraws) -> Result<Vec<Said<'a>
                 continue;
             }
             // A pair that is marked twice counts as it was marked first.
-            let is_good = |step: &(usize, usize)| marks.iter().any(|m| (m.state, m.action) == *step && m.good);
+            let first = |step: &(usize, usize)| marks.iter().find(|m| (m.state, m.action) == *step);
+            let is_good = |step: &(usize, usize)| first(step).is_some_and(|mark| mark.good);
             let given = steps.iter().enumerate().map(|(bit, step)| usize::from(is_good(step)) << bit).sum();
             add(answering.critique(&steps)?, given);
         }

@@ -1,9 +1,11 @@
 //! Whether what was said fits the features: told when it does not, and hardly ever when it does.
 
+mod support;
+
 use active_query::{ActiveQuery, Event, Output, Settings, WorldInputs, fitted, world_lesson};
 use apprentice_msgs::msg::{
-    ActionDemonstration, CritiqueSegment, EvidenceLog, EvidenceRecord, FeatureTrajectory, LessonStatus, PolicyBound,
-    PolicyBounds, Posterior, Rationality, RiskBound, RobustPolicy, SegmentCritique, TrajectoryPreference,
+    ActionDemonstration, CritiqueSegment, EvidenceLog, EvidenceRecord, FeatureTrajectory, LessonStatus, Posterior,
+    Rationality, RiskBound, RobustPolicy, SegmentCritique, TrajectoryPreference,
 };
 use exchange::{Picture, World, world_from_message, world_to_message};
 use mdp::Solver;
@@ -11,6 +13,8 @@ use mdp::random::{categorical, index, uniform};
 use mdp::worlds::GridWorld;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+
+use support::bounds;
 
 const BETA: f64 = 10.0;
 const K: usize = 4;
@@ -77,24 +81,11 @@ fn posterior(mean: &[f64], spread: f64, revision: u64, rng: &mut ChaCha8Rng) -> 
     }
 }
 
-fn bounds(revision: u64, outcome: u8) -> PolicyBounds {
-    let normalised_loss = RiskBound { outcome, bound: 0.05, ..RiskBound::default() };
-    PolicyBounds {
-        revision,
-        evidence_hash: "h".into(),
-        set_id: format!("robust-{revision}-0"),
-        policies: vec![PolicyBound { id: "robust".into(), normalised_loss, ..PolicyBound::default() }],
-        alpha: 0.95,
-        delta: 0.05,
-        ..PolicyBounds::default()
-    }
-}
-
 /// The state of a lesson with these records, whose draws are near `mean`.
 fn judged(settings: &Settings, records: Vec<EvidenceRecord>, mean: &[f64], outcome: u8) -> LessonStatus {
     let revision = records.len() as u64;
     let mut rng = ChaCha8Rng::seed_from_u64(5);
-    let (posterior, bounds) = (posterior(mean, 0.1, revision, &mut rng), bounds(revision, outcome));
+    let (posterior, bounds) = (posterior(mean, 0.1, revision, &mut rng), bounds(revision, outcome, 0.05));
     let (world, log) = (world(), EvidenceLog { records, ..EvidenceLog::default() });
     let inputs = WorldInputs { posterior: &posterior, world: &world, log: &log, bounds: &bounds };
     let lesson = world_lesson(settings, &posterior, &bounds).expect("they belong together");
@@ -275,7 +266,7 @@ fn a_lesson_without_a_policy_goes_on_and_says_why_there_is_none() {
     assert!(lesson.loss_bound.is_nan() && lesson.misfit_p.is_nan());
     assert!(step(policy(RobustPolicy::NOT_COMPUTED, "no policy, because the chains disagree")).is_empty(), "told once");
     // What is judged counts, and what is not judged does not take that back.
-    let outputs = step(Event::PolicyBounds(Box::new(bounds(1, RiskBound::BOUND))));
+    let outputs = step(Event::PolicyBounds(Box::new(bounds(1, RiskBound::BOUND, 0.05))));
     assert!(
         matches!(outputs.as_slice(), [Output::Lesson(lesson)] if lesson.state == LessonStatus::TAUGHT),
         "{outputs:?}"

@@ -1,13 +1,15 @@
 //! Which question about a world is asked, shown against values at risk that are computed here by hand.
 
+mod support;
+
 use active_query::{
     ActiveQuery, Event, Output, QuestionKind, Settings, Strategy, WorldInputs, questions_ahead, world_lesson,
     world_question,
 };
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
-    ActionDemonstration, EvidenceLog, EvidenceRecord, LessonStatus, PolicyBound, PolicyBounds, Posterior,
-    QueryResponse, Rationality, Retraction, RiskBound, TabularWorld, WorldQuery,
+    ActionDemonstration, EvidenceLog, EvidenceRecord, LessonStatus, PolicyBounds, Posterior, QueryResponse,
+    Rationality, Retraction, RiskBound, TabularWorld, WorldQuery,
 };
 use apprentice_msgs::to_cdr;
 use exchange::{Picture, World, check_world_query, world_from_message, world_to_message};
@@ -59,16 +61,7 @@ fn posterior(revision: u64) -> Posterior {
 }
 
 fn bounds(revision: u64, bound: f64) -> PolicyBounds {
-    let normalised_loss = RiskBound { outcome: RiskBound::BOUND, bound, ..RiskBound::default() };
-    PolicyBounds {
-        revision,
-        evidence_hash: "h".into(),
-        set_id: format!("robust-{revision}-0"),
-        policies: vec![PolicyBound { id: "robust".into(), normalised_loss, ..PolicyBound::default() }],
-        alpha: 0.95,
-        delta: 0.05,
-        ..PolicyBounds::default()
-    }
+    support::bounds(revision, RiskBound::BOUND, bound)
 }
 
 fn settings() -> Settings {

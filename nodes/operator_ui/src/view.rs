@@ -173,7 +173,6 @@ pub(crate) fn lesson_view(message: &LessonStatus) -> LessonView {
         epsilon_loss: goal(message),
         held_out: message.held_out,
         surprises: message.surprises,
-        misfit_p: finite(message.misfit_p),
         misfits: message.misfits.iter().take(MAX_MISFITS).cloned().collect(),
     }
 }

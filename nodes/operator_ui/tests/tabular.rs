@@ -210,17 +210,13 @@ fn weights_and_the_history_of_the_loss_are_told_in_a_lesson_about_a_world_only()
         state: LessonStatus::MISFIT,
         held_out: 7,
         surprises: 5,
-        misfit_p: 0.0005,
         misfits,
         ..LessonStatus::default()
     };
     table.hear(Event::Lesson(Box::new(doubted)));
     let shown = &table.shown["lesson"];
     assert_eq!((&shown["state"], &shown["held_out"], &shown["surprises"]), (&json!("misfit"), &json!(7), &json!(5)));
-    assert_eq!(
-        (&shown["misfit_p"], &shown["misfits"][15], shown["misfits"].get(16)),
-        (&json!(0.0005), &json!("e15"), None)
-    );
+    assert_eq!((&shown["misfits"][15], shown["misfits"].get(16)), (&json!("e15"), None));
 
     let mut set = Table::asking(3);
     assert_eq!(set.shown.get("loss_trend"), None);

@@ -161,8 +161,6 @@ pub struct LessonView {
     pub held_out: u32,
     /// and how many of them were not expected.
     pub surprises: u32,
-    /// About a world: how probable answers as odd as those given are.
-    pub misfit_p: Option<f64>,
     /// Ids of what fits worst, where the state is `misfit`.
     pub misfits: Vec<String>,
 }
