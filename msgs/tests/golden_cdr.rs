@@ -70,7 +70,7 @@ where
 fn every_message_agrees_with_an_independent_implementation() {
     let golden = Golden::read();
     let mut seen = BTreeSet::new();
-    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 151] = [
+    let all: [fn(&mut BTreeSet<&'static str>, &Golden); 153] = [
         check::<msg::ActionDemonstration>,
         check::<msg::ArmModel>,
         check::<msg::ArmMotion>,
@@ -92,6 +92,7 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<msg::PlacementBound>,
         check::<msg::PlacementCandidate>,
         check::<msg::PlacementDemonstration>,
+        check::<msg::PlacementOption>,
         check::<msg::PlacementPlan>,
         check::<msg::PlacementQuery>,
         check::<msg::PolicyBound>,
@@ -110,6 +111,7 @@ fn every_message_agrees_with_an_independent_implementation() {
         check::<msg::RobustPolicy>,
         check::<msg::SceneObject>,
         check::<msg::SegmentCritique>,
+        check::<msg::TableReach>,
         check::<msg::TableScene>,
         check::<msg::TabularWorld>,
         check::<msg::TrajectoryPreference>,

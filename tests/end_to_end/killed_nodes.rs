@@ -2,7 +2,7 @@
 
 use crate::recorded::Recorded;
 use crate::suite::{ENDLESS, Suite, run};
-use apprentice_msgs::msg::{EvidenceReceipt, EvidenceRecord};
+use apprentice_msgs::msg::EvidenceReceipt;
 use rustix::process::Signal;
 use std::time::Duration;
 
@@ -16,10 +16,7 @@ const PERSON: &str = "  demonstrator:
 
 /// Ids of everything that the journal holds.
 fn journal(suite: &Suite) -> Vec<String> {
-    let id = |record: EvidenceRecord| {
-        record.demonstration.first().map(|d| d.id.clone()).or(record.response.first().map(|r| r.id.clone()))
-    };
-    suite.journal().into_iter().filter_map(id).collect()
+    suite.journal().iter().map(|record| exchange::record_id(record).to_owned()).collect()
 }
 
 /// Waits until two more answers have been accepted.

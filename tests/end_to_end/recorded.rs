@@ -1,6 +1,6 @@
 //! What a bag holds, decoded.
 
-use apprentice_msgs::msg::{EvidenceLog, PlacementDemonstration};
+use apprentice_msgs::msg::{EvidenceLog, PlacementDemonstration, TrajectoryPreference};
 use apprentice_msgs::{Message, from_cdr, to_cdr};
 use std::path::Path;
 
@@ -40,9 +40,13 @@ impl Recorded {
         self.timed::<EvidenceLog>("evidence").last().map(|(_, log)| ids(log)).unwrap_or_default()
     }
 
-    /// Ids of all demonstrations that were sent.
-    pub fn demonstrations(&self) -> Vec<String> {
-        self.distinct::<PlacementDemonstration>("demonstration").into_iter().map(|d| d.id).collect()
+    /// Ids of all placements and comparisons that were sent, sorted.
+    pub fn answers(&self) -> Vec<String> {
+        let places = self.distinct::<PlacementDemonstration>("demonstration").into_iter().map(|d| d.id);
+        let choices = self.distinct::<TrajectoryPreference>("preference").into_iter().map(|p| p.id);
+        let mut all: Vec<String> = places.chain(choices).collect();
+        all.sort();
+        all
     }
 }
 

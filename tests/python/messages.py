@@ -97,6 +97,20 @@ class PlacementDemonstration(IdlStruct, typename="apprentice_msgs::msg::dds_::Pl
 
 @dataclass
 @final
+class FeatureTrajectory(IdlStruct, typename="apprentice_msgs::msg::dds_::FeatureTrajectory_"):
+    id: str = ""
+    features: sequence[float64] = field(default_factory=list)
+
+
+@dataclass
+@final
+class PlacementOption(IdlStruct, typename="apprentice_msgs::msg::dds_::PlacementOption_"):
+    placement: Point = field(default_factory=Point)
+    trajectory: FeatureTrajectory = field(default_factory=FeatureTrajectory)
+
+
+@dataclass
+@final
 class PlacementQuery(IdlStruct, typename="apprentice_msgs::msg::dds_::PlacementQuery_"):
     header: Header = field(default_factory=Header)
     id: str = ""
@@ -106,6 +120,10 @@ class PlacementQuery(IdlStruct, typename="apprentice_msgs::msg::dds_::PlacementQ
     bound_m: float64 = 0.0
     epsilon_m: float64 = 0.0
     n_candidates: uint32 = 0
+    options: sequence[PlacementOption, 2] = field(default_factory=list)
+    gain: float64 = 0.0
+    gain_per_second: float64 = 0.0
+    held_out: bool = False
 
 
 @dataclass
@@ -154,13 +172,6 @@ class TabularWorld(IdlStruct, typename="apprentice_msgs::msg::dds_::TabularWorld
 class WorldReference(IdlStruct, typename="apprentice_msgs::msg::dds_::WorldReference_"):
     id: str = ""
     hash: str = ""
-
-
-@dataclass
-@final
-class FeatureTrajectory(IdlStruct, typename="apprentice_msgs::msg::dds_::FeatureTrajectory_"):
-    id: str = ""
-    features: sequence[float64] = field(default_factory=list)
 
 
 @dataclass

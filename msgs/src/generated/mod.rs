@@ -51,6 +51,7 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/PlacementBound",
     "apprentice_msgs/msg/PlacementCandidate",
     "apprentice_msgs/msg/PlacementDemonstration",
+    "apprentice_msgs/msg/PlacementOption",
     "apprentice_msgs/msg/PlacementPlan",
     "apprentice_msgs/msg/PlacementQuery",
     "apprentice_msgs/msg/PolicyBound",
@@ -69,6 +70,7 @@ pub(crate) const MESSAGES: &[&str] = &[
     "apprentice_msgs/msg/RobustPolicy",
     "apprentice_msgs/msg/SceneObject",
     "apprentice_msgs/msg/SegmentCritique",
+    "apprentice_msgs/msg/TableReach",
     "apprentice_msgs/msg/TableScene",
     "apprentice_msgs/msg/TabularWorld",
     "apprentice_msgs/msg/TrajectoryPreference",
@@ -328,6 +330,7 @@ float32[] poses                  # for each link x, y, z in metres, then a unit 
     ("apprentice_msgs/msg/Candidates", r#"# Hypothetical tables that active_query wants judged.
 std_msgs/Header header
 uint64 revision                  # of the posterior
+string robot_hash                # whose reach they lie in; empty: in anybody's
 TableScene[] scenes
 "#),
     ("apprentice_msgs/msg/Carrying", r#"# What the arm is doing about a plan, and how that came out.
@@ -434,16 +437,16 @@ uint8 state
 string reason
 string query_id                  # the open question; empty when there is none
 uint32 questions_asked
-uint32 demonstrations            # active ones; about a world all pieces of evidence in force
+uint32 demonstrations            # active ones, and comparisons; about a world all pieces of evidence in force
 uint8 bound_outcome              # as in PlacementBound; about a world as in RiskBound
 float64 bound_m                  # NaN without one
 float64 epsilon_m
 float64 loss_bound               # about a world: bound on the normalised loss of the robot's policy; NaN without one
 float64 epsilon_loss             # the lesson about a world ends below it; NaN when it is about a table
-uint32 held_out                  # about a world: answers to questions that were drawn at random
+uint32 held_out                  # answers to questions that were drawn at random
 uint32 surprises                 # of these, how many were not expected; 1 in 10 is by chance
 uint32 to_confirm                # answers to random questions, none of them a surprise, that the lesson still needs although its bound is good
-float64 misfit_p                 # about a world: how probable answers as odd as those given are; NaN where that was not reckoned
+float64 misfit_p                 # how probable answers as odd as those given are; NaN where that was not reckoned
 string[] misfits                 # when the state is MISFIT: ids of the evidence that fits worst
 "#),
     ("apprentice_msgs/msg/NodeSettings", r#"# What a node was started with; a replay starts it the same way.
@@ -525,6 +528,10 @@ TableScene scene
 geometry_msgs/Point placement    # metres, in the scene's frame
 uint8 confidence
 "#),
+    ("apprentice_msgs/msg/PlacementOption", r#"# A place for the target that a question offers.
+geometry_msgs/Point placement    # metres, in the question's scene
+FeatureTrajectory trajectory     # what it amounts to there: what a TrajectoryPreference compares
+"#),
     ("apprentice_msgs/msg/PlacementPlan", r#"# Where the robot would put the target, and how it would get there.
 uint8 PLANNED=0
 uint8 NO_FREE_PLACE=1
@@ -568,7 +575,8 @@ uint32 map_side                  # the two maps are map_side x map_side cells, r
 float32[] reward_map             # mean reward over the draws
 uint8[] cell_state
 "#),
-    ("apprentice_msgs/msg/PlacementQuery", r#"# The open question: where does the target belong in this scene? Republished until it is answered.
+    ("apprentice_msgs/msg/PlacementQuery", r#"# The open question about a table: where does the target belong in this scene, or in which of two places? Republished until it is
+# answered by a PlacementDemonstration in the scene, by a TrajectoryPreference of the two options, or by a QueryResponse.
 std_msgs/Header header           # stamp of the posterior
 string id
 uint64 revision                  # of the posterior it comes from
@@ -577,6 +585,10 @@ string reason                    # why this is asked, in words
 float64 bound_m                  # in this scene; NaN without one
 float64 epsilon_m
 uint32 n_candidates              # how many scenes it was chosen from
+PlacementOption[<=2] options     # none: any place; two: which of these is better; the first, by lot, is called A
+float64 gain                     # nats: what the answer is expected to tell; NaN where it was not chosen by that
+float64 gain_per_second          # of the person's time
+bool held_out                    # drawn at random, so that the answer is fair evidence against the model
 "#),
     ("apprentice_msgs/msg/PolicyBound", r#"# How good and how wrong one policy may be.
 string id
@@ -858,6 +870,16 @@ uint32[] states                  # the trajectory
 uint32[] actions                 # taken in each of its states
 CritiqueSegment[] segments       # one or more, none overlapping another
 uint8 confidence
+"#),
+    ("apprentice_msgs/msg/TableReach", r#"# Where the arm can put the target on the bare table.
+std_msgs/Header header           # the frame of the table; no stamp
+string robot_hash                # which arm, as in PlacementPlan
+string target_id
+float64 width_m                  # of the table
+float64 depth_m
+uint32 side                      # cells per axis; 0: not known, see reason
+bool[] reachable                 # side x side, row-major, the first row nearest to the robot
+string reason
 "#),
     ("apprentice_msgs/msg/TableScene", r#"# What stands on the table, and what is to be placed.
 std_msgs/Header header           # frame_id: the table's frame

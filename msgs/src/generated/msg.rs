@@ -140,6 +140,8 @@ pub struct Candidates {
     pub header: super::std_msgs::Header,
     /// of the posterior (`uint64`)
     pub revision: u64,
+    /// whose reach they lie in; empty: in anybody's (`string`)
+    pub robot_hash: std::string::String,
     /// (`TableScene[]`)
     pub scenes: Vec<super::msg::TableScene>,
 }
@@ -398,7 +400,7 @@ pub struct LessonStatus {
     pub query_id: std::string::String,
     /// (`uint32`)
     pub questions_asked: u32,
-    /// active ones; about a world all pieces of evidence in force (`uint32`)
+    /// active ones, and comparisons; about a world all pieces of evidence in force (`uint32`)
     pub demonstrations: u32,
     /// as in PlacementBound; about a world as in RiskBound (`uint8`)
     pub bound_outcome: u8,
@@ -410,13 +412,13 @@ pub struct LessonStatus {
     pub loss_bound: f64,
     /// the lesson about a world ends below it; NaN when it is about a table (`float64`)
     pub epsilon_loss: f64,
-    /// about a world: answers to questions that were drawn at random (`uint32`)
+    /// answers to questions that were drawn at random (`uint32`)
     pub held_out: u32,
     /// of these, how many were not expected; 1 in 10 is by chance (`uint32`)
     pub surprises: u32,
     /// answers to random questions, none of them a surprise, that the lesson still needs although its bound is good (`uint32`)
     pub to_confirm: u32,
-    /// about a world: how probable answers as odd as those given are; NaN where that was not reckoned (`float64`)
+    /// how probable answers as odd as those given are; NaN where that was not reckoned (`float64`)
     pub misfit_p: f64,
     /// when the state is MISFIT: ids of the evidence that fits worst (`string[]`)
     pub misfits: Vec<std::string::String>,
@@ -629,6 +631,19 @@ impl crate::Message for PlacementDemonstration {
     const TYPE: &'static str = "apprentice_msgs/msg/PlacementDemonstration";
 }
 
+/// A place for the target that a question offers.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlacementOption {
+    /// metres, in the question's scene (`geometry_msgs/Point`)
+    pub placement: super::geometry_msgs::Point,
+    /// what it amounts to there: what a TrajectoryPreference compares (`FeatureTrajectory`)
+    pub trajectory: super::msg::FeatureTrajectory,
+}
+
+impl crate::Message for PlacementOption {
+    const TYPE: &'static str = "apprentice_msgs/msg/PlacementOption";
+}
+
 /// Where the robot would put the target, and how it would get there.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlacementPlan {
@@ -720,7 +735,8 @@ impl crate::Message for PlacementPlan {
     const TYPE: &'static str = "apprentice_msgs/msg/PlacementPlan";
 }
 
-/// The open question: where does the target belong in this scene? Republished until it is answered.
+/// The open question about a table: where does the target belong in this scene, or in which of two places? Republished until it is
+/// answered by a PlacementDemonstration in the scene, by a TrajectoryPreference of the two options, or by a QueryResponse.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlacementQuery {
     /// stamp of the posterior (`std_msgs/Header`)
@@ -739,6 +755,15 @@ pub struct PlacementQuery {
     pub epsilon_m: f64,
     /// how many scenes it was chosen from (`uint32`)
     pub n_candidates: u32,
+    /// none: any place; two: which of these is better; the first, by lot, is called A (`PlacementOption[<=2]`)
+    #[serde(deserialize_with = "crate::bounded::at_most::<_, _, 2>")]
+    pub options: Vec<super::msg::PlacementOption>,
+    /// nats: what the answer is expected to tell; NaN where it was not chosen by that (`float64`)
+    pub gain: f64,
+    /// of the person's time (`float64`)
+    pub gain_per_second: f64,
+    /// drawn at random, so that the answer is fair evidence against the model (`bool`)
+    pub held_out: bool,
 }
 
 impl crate::Message for PlacementQuery {
@@ -1383,6 +1408,31 @@ impl SegmentCritique {
 
 impl crate::Message for SegmentCritique {
     const TYPE: &'static str = "apprentice_msgs/msg/SegmentCritique";
+}
+
+/// Where the arm can put the target on the bare table.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TableReach {
+    /// the frame of the table; no stamp (`std_msgs/Header`)
+    pub header: super::std_msgs::Header,
+    /// which arm, as in PlacementPlan (`string`)
+    pub robot_hash: std::string::String,
+    /// (`string`)
+    pub target_id: std::string::String,
+    /// of the table (`float64`)
+    pub width_m: f64,
+    /// (`float64`)
+    pub depth_m: f64,
+    /// cells per axis; 0: not known, see reason (`uint32`)
+    pub side: u32,
+    /// side x side, row-major, the first row nearest to the robot (`bool[]`)
+    pub reachable: Vec<bool>,
+    /// (`string`)
+    pub reason: std::string::String,
+}
+
+impl crate::Message for TableReach {
+    const TYPE: &'static str = "apprentice_msgs/msg/TableReach";
 }
 
 /// What stands on the table, and what is to be placed.

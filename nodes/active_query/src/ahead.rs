@@ -1,6 +1,6 @@
 //! Questions that were chosen while the person thought, for when the robot has not learned from the last answer in time.
 
-use crate::world_rests::{question_answered, question_skipped};
+use crate::question_id::{question_answered, question_skipped};
 use apprentice_msgs::msg::{EvidenceLog, WorldQuery};
 
 /// The open question with those that may follow it, and how long the person has waited for the next.

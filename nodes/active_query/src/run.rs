@@ -15,6 +15,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let world_query = bus.publisher::<WorldQuery>("world_query", Qos::State)?;
     let lesson = bus.publisher::<LessonStatus>("lesson", Qos::State)?;
     bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
+    bus.subscribe("reach", Qos::State, |message| Event::Reach(Box::new(message)))?;
     bus.subscribe("bounds", Qos::State, |message| Event::Bounds(Box::new(message)))?;
     bus.subscribe("policy_bounds", Qos::State, |message| Event::PolicyBounds(Box::new(message)))?;
     bus.subscribe("robust_policy", Qos::State, |message| Event::Policy(Box::new(message)))?;

@@ -24,6 +24,16 @@ pub enum Strategy {
     LookAhead,
 }
 
+/// What may be asked about a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TableQuestionKind {
+    /// Where the target belongs (section 8.2.4).
+    Placement,
+    /// In which of two places it is better.
+    Comparison,
+}
+
 /// What may be asked about a world.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -50,18 +60,22 @@ pub struct Settings {
     pub n_candidates: i64,
     /// By what one of them is chosen.
     pub strategy: Strategy,
+    /// Whether tables are asked about only where the arm could put the target, which the planner has to tell.
+    pub only_reachable: bool,
+    /// What may be asked about a table; nothing: the lesson takes what it is given.
+    pub table_question_kinds: Vec<TableQuestionKind>,
     /// What may be asked about a world; nothing: the lesson takes what it is given.
     pub question_kinds: Vec<QuestionKind>,
     /// Steps of the ways that questions about a world show, at most.
     pub trajectory_steps: i64,
-    /// Share of the questions about a world that are drawn at random, whatever the strategy.
+    /// Share of the questions that are drawn at random, whatever the strategy; about a table these ask which of two places is better.
     pub hold_out_share: f64,
-    /// Level at which answers that do not fit end a lesson about a world; 0: none do.
+    /// Level at which answers that do not fit end a lesson; 0: none do.
     pub misfit_level: f64,
-    /// Share of surprises among answers to random questions that is still tolerable: a lesson about a world is not taught before they
-    /// show that there are no more; 1: they need not.
+    /// Share of surprises among answers to random questions that is still tolerable: a lesson is not taught before they show that there
+    /// are no more; 1: they need not.
     pub most_surprises: f64,
-    /// Nats per second of the person's time that a question about a world must promise; 0: none is too small.
+    /// Nats per second of the person's time that a question must promise; 0: none is too small.
     pub least_gain_per_second: f64,
     /// Questions after which the lesson is given up.
     pub max_questions: i64,
@@ -83,6 +97,8 @@ impl Default for Settings {
             epsilon_loss: 0.10,
             n_candidates: 50,
             strategy: Strategy::Var,
+            only_reachable: false,
+            table_question_kinds: vec![TableQuestionKind::Placement, TableQuestionKind::Comparison],
             question_kinds: vec![QuestionKind::Action, QuestionKind::Critique, QuestionKind::Comparison],
             trajectory_steps: 8,
             hold_out_share: 0.1,
@@ -127,8 +143,19 @@ impl NodeSettings for Settings {
             name: "strategy",
             about: "by what a question is chosen: the largest risk, the answer that tells most of whether the risk is too large, or at \
                     random; in a world also where the rewards that fit disagree most (AS), what tells most of the reward (ARC), or \
-                    what brings the risk down most; about a table these three choose as information does",
+                    what brings the risk down most; about a table these three choose as information does, and var asks where where it may",
             range: Range::Choice(&["var", "information", "random", "entropy", "reward_information", "look_ahead"]),
+        },
+        ParameterSpec {
+            name: "only_reachable",
+            about: "whether only tables and places are asked about where the arm could put the target; nothing is asked before \
+                    placement_planner has told what it reaches",
+            range: Range::Any,
+        },
+        ParameterSpec {
+            name: "table_question_kinds",
+            about: "what may be asked about a table: placement (where), comparison (which of two places); empty: nothing is asked",
+            range: Range::Any,
         },
         ParameterSpec {
             name: "question_kinds",
@@ -142,24 +169,25 @@ impl NodeSettings for Settings {
         },
         ParameterSpec {
             name: "hold_out_share",
-            about: "share of the questions about a world that are drawn at random, whatever the strategy",
+            about: "share of the questions that are drawn at random, whatever the strategy: a check of the model; about a table these \
+                    ask which of two places is better",
             range: Range::Float { min: 0.0, max: 0.9 },
         },
         ParameterSpec {
             name: "misfit_level",
-            about: "a lesson about a world ends when answers as odd as those given are less probable than this under the rewards that fit, or \
+            about: "the lesson ends when answers as odd as those given are less probable than this under the rewards that fit, or \
                     surprises among the answers to random questions are; 0: never",
             range: Range::Float { min: 0.0, max: 0.5 },
         },
         ParameterSpec {
             name: "most_surprises",
-            about: "a lesson about a world whose bound is good goes on with random questions until they show, with the confidence of the \
+            about: "a lesson whose bound is good goes on with random questions until they show, with the confidence of the \
                     bound, that no larger share of the answers are surprises; 1: they need not (.4 takes 6 answers without a surprise)",
             range: Range::Float { min: 0.01, max: 1.0 },
         },
         ParameterSpec {
             name: "least_gain_per_second",
-            about: "a lesson about a world is given up when the best question is expected to tell less than this for each second of the \
+            about: "a lesson is given up when the best question is expected to tell less than this for each second of the \
                     person's time, nats, where it is chosen by that",
             range: Range::Float { min: 0.0, max: 100.0 },
         },

@@ -15,14 +15,27 @@ pub(crate) fn difference(from: &Scene, to: &Scene) -> String {
     }
 }
 
+/// What is asked.
+pub(crate) fn question(label: &str, place: &str, is_of_two: bool) -> String {
+    if is_of_two {
+        format!("Which of the two places is better for the {label} {place}?")
+    } else {
+        format!("Where does the {label} belong {place}?")
+    }
+}
+
+/// Why a question was drawn at random.
+pub(crate) const HELD_OUT: &str =
+    "I drew this question at random, to see whether you answer as I expect; now and then I do.";
+
 /// Why a table is asked about.
 pub(crate) fn why(
     bound: &PlacementBound,
     bounds: &PerformanceBounds,
-    n_demonstrations: u64,
+    n_pieces: u64,
     strategy: Strategy,
 ) -> String {
-    if n_demonstrations == 0 {
+    if n_pieces == 0 {
         return "I have not been shown anything yet.".into();
     }
     let of = bounds.bounds.len();

@@ -1,13 +1,12 @@
 //! Some of a posterior's draws, with what is best to do under each: what questions are chosen by, and answers held against.
 
 use crate::WorldInputs;
+use crate::draws::{SCORED, evenly_spaced, rationality, weights_of};
 use apprentice_msgs::msg::Posterior;
 use exchange::check_posterior;
 use inquiry::DrawnOptima;
 use mdp::Solver;
 
-/// Draws that answers are judged by: evenly spaced ones.
-const SCORED: usize = 200;
 /// Fewer say nothing of a 0.95-quantile.
 const MIN_SCORED: usize = 20;
 /// Action values that are kept at a time, at most.
@@ -17,6 +16,8 @@ const MAX_VALUES: usize = 20_000_000;
 pub(crate) struct WorldDraws {
     /// Numbers of the draws in the posterior.
     pub chosen: Vec<usize>,
+    /// Their weights, row by row.
+    pub weights: Vec<f64>,
     /// What is optimal under each.
     pub optima: DrawnOptima,
     /// What the robot would do by the MAP weights.
@@ -40,28 +41,15 @@ impl WorldDraws {
         if n < MIN_SCORED.min(n_draws) {
             return Err(format!("a world of {} states is too large to ask about", mdp.n_states()));
         }
-        let chosen: Vec<usize> = (0..n).map(|i| i * n_draws / n).collect();
-        let weights: Vec<f64> =
-            chosen.iter().flat_map(|draw| &posterior.draws[draw * k..][..k]).map(|w| f64::from(*w)).collect();
+        let chosen = evenly_spaced(n, n_draws);
+        let weights = weights_of(posterior, &chosen);
         let optima = DrawnOptima::new(mdp, &weights, 1).map_err(|error| error.to_string())?;
         let map = Solver::new(mdp).solve(&posterior.map_weights).policy().to_vec();
-        Ok(Self { chosen, optima, map })
+        Ok(Self { chosen, weights, optima, map })
     }
 
     /// How rational answers of a kind are by the posterior, for all draws or for each, and their rate of wrong ones.
     pub fn rationality(&self, posterior: &Posterior, kind: &str) -> (Vec<f64>, f64) {
-        let of = posterior.rationalities.iter().find(|of| of.kind == kind);
-        let usable = |beta: f64| if beta > 0.0 && beta.is_finite() { beta } else { 1.0 };
-        let wrong_rate = of.map(|of| of.wrong_rate).filter(|rate| (0.0..1.0).contains(rate)).unwrap_or(0.0);
-        let n_learned = posterior.learned_kinds.len();
-        let betas = match posterior.learned_kinds.iter().position(|learned| learned == kind) {
-            Some(at) => {
-                let beta =
-                    |draw: &usize| posterior.learned_betas.get(draw * n_learned + at).copied().unwrap_or(f32::NAN);
-                self.chosen.iter().map(|draw| usable(f64::from(beta(draw)))).collect()
-            }
-            None => vec![usable(of.map_or(f64::NAN, |of| of.mean))],
-        };
-        (betas, wrong_rate)
+        rationality(posterior, &self.chosen, kind)
     }
 }

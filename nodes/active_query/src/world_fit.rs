@@ -1,34 +1,16 @@
-//! Whether what the person said can be explained with the features that the world has (posterior-predictive check), and whether
-//! their answers to questions that were drawn at random were as expected: what speaks against the model that every bound rests on.
+//! What speaks against the model of a lesson about a world: see [`crate::fit`].
 
+use crate::fit::{Claim, MAX_JUDGED, Said, compared, is_sure, judged, may_matter};
 use crate::world_draws::WorldDraws;
-use crate::world_rests::asked_at_random;
-use crate::world_words;
 use crate::{Settings, WorldInputs};
-use apprentice_msgs::msg::{EvidenceRecord, LessonStatus, TrajectoryPreference};
-use exchange::{Confidence, confidence_from_message, in_force, marks_from_message, record_id, steps_from_message};
-use inquiry::tabular::{Answering, comparison_answers, distinct};
-use inquiry::{
-    Answered, Answers, Belief, Chosen, HoldOut, InquiryError, Look, MAX_STEPS, Obstacle, Selection, Standing,
-    StoppingRule, predictive_check,
-};
-use likelihood::preferences::AnswerModel;
-
-/// Answers that are judged, at most: the newest.
-const MAX_JUDGED: usize = 500;
-
-/// Something that was said for sure, as one of the answers that were possible. What was said with less confidence is expected to be off.
-struct Said<'a> {
-    record: &'a EvidenceRecord,
-    answers: Answers,
-    given: usize,
-}
+use apprentice_msgs::msg::LessonStatus;
+use exchange::{in_force, marks_from_message, steps_from_message};
+use inquiry::tabular::{Answering, distinct};
+use inquiry::{Answers, InquiryError, MAX_STEPS};
 
 /// Whether a lesson's state depends on how well the evidence fits: it is judged where there is a bound, which rests on the model.
 pub(crate) fn is_judged(settings: &Settings, lesson: &LessonStatus) -> bool {
-    let goes_on = [LessonStatus::ASKING, LessonStatus::TAUGHT].contains(&lesson.state);
-    let may_matter = settings.misfit_level > 0.0 || settings.most_surprises < 1.0;
-    may_matter && goes_on && lesson.loss_bound.is_finite() && lesson.demonstrations > 0
+    may_matter(settings, lesson) && lesson.loss_bound.is_finite() && lesson.demonstrations > 0
 }
 
 /// The lesson with what speaks against its model: its state says so when that is too much at the level of the settings.
@@ -48,70 +30,19 @@ pub(crate) fn fitted_by(
     settings: &Settings,
     inputs: &WorldInputs<'_>,
     draws: &WorldDraws,
-    mut lesson: LessonStatus,
+    lesson: LessonStatus,
 ) -> Result<LessonStatus, InquiryError> {
     if !is_judged(settings, &lesson) {
         return Ok(lesson);
     }
-    let said = said(inputs, draws)?;
-    let belief = Belief::equal(draws.optima.n())?;
-    let answered: Vec<Answered<'_>> =
-        said.iter().map(|said| Answered { answers: &said.answers, given: said.given }).collect();
-    let check = predictive_check(&answered, &belief, settings.seed.unsigned_abs())?;
-    let mut hold_out = HoldOut::default();
-    for said in said.iter().filter(|said| asked_at_random(said.record)) {
-        hold_out.add(&said.answers, &belief_without(said)?, said.given)?;
-    }
-    let number = |n: u64| u32::try_from(n).unwrap_or(u32::MAX);
-    (lesson.held_out, lesson.surprises) = (number(hold_out.n), number(hold_out.surprises));
-    lesson.misfit_p = check.p_value;
-    let rule = StoppingRule {
+    let claim = Claim {
+        bound: lesson.loss_bound,
         epsilon: settings.epsilon_loss,
         delta: inputs.bounds.delta,
-        // Of the question, which is chosen later.
-        least_gain_per_second: 0.0,
-        most_surprises: settings.most_surprises,
-        // Where it is switched off, nothing is that improbable.
-        misfit_level: settings.misfit_level.max(f64::MIN_POSITIVE),
+        features: &inputs.world.feature_names,
+        can_confirm: true,
     };
-    let bounds = [Some(lesson.loss_bound)];
-    let fit = Some(&check).filter(|_| settings.misfit_level > 0.0);
-    let next = Selection::Ask(Chosen { question: 0, score: 0.0, per_second: None, is_hold_out: false });
-    let names = &inputs.world.feature_names;
-    match rule.standing(&Look { bounds: &bounds, next: &next, drop: None, hold_out, fit })? {
-        Standing::CannotBeReached { because, .. } => {
-            lesson.state = LessonStatus::MISFIT;
-            lesson.reason = match because {
-                Obstacle::Surprises { hold_out, .. } => world_words::surprised(hold_out.surprises, hold_out.n, names),
-                _ => world_words::misfit(check.p_value, names),
-            };
-            for &at in &check.worst {
-                let id = record_id(said[at].record).to_owned();
-                if !lesson.misfits.contains(&id) {
-                    lesson.misfits.push(id);
-                }
-            }
-        }
-        Standing::Confirming { about, .. } => {
-            lesson.to_confirm = about;
-            let is_over = i64::from(lesson.demonstrations) >= settings.max_questions;
-            lesson.state = if is_over { LessonStatus::GAVE_UP } else { LessonStatus::ASKING };
-            lesson.reason = world_words::unconfirmed(&lesson.reason, about, settings.most_surprises, is_over);
-        }
-        Standing::Taught { .. } | Standing::NotYet { .. } => {}
-    }
-    Ok(lesson)
-}
-
-/// What is believed by everything but one answer: the draws weighed by the inverse of its probability (importance sampling of
-/// the posterior that leaves it out), with weights that are truncated at √n times their mean (Ionides 2008).
-fn belief_without(said: &Said<'_>) -> Result<Belief, InquiryError> {
-    let mut weights = said.answers.likelihood(said.given)?;
-    weights.iter_mut().for_each(|p| *p = 1.0 / p.max(f64::MIN_POSITIVE));
-    let n = weights.len() as f64;
-    let most = (weights.iter().fold(0.0, |sum, w| sum + w / n) * n.sqrt()).min(f64::MAX);
-    weights.iter_mut().for_each(|w| *w = w.min(most));
-    Belief::weighted(&weights)
+    judged(settings, &claim, &said(inputs, draws)?, draws.optima.n(), lesson)
 }
 
 /// Everything in force that was said for sure about the world, oldest first.
@@ -120,7 +51,6 @@ fn said<'a>(inputs: &WorldInputs<'a>, draws: &WorldDraws) -> Result<Vec<Said<'a>
     let (mdp, optima) = (&world.mdp, &draws.optima);
     let by = |kind: &str| draws.rationality(posterior, kind);
     let (actions, critiques, preferences) = (by("actions"), by("critiques"), by("preferences"));
-    let is_sure = |confidence: u8| confidence_from_message(confidence) == Ok(Confidence::Sure);
     let end = usize::try_from(posterior.revision).unwrap_or(usize::MAX).min(log.records.len());
     let mut found = Vec::new();
     for record in in_force(&log.records[..end]).rev() {
@@ -149,28 +79,8 @@ fn said<'a>(inputs: &WorldInputs<'a>, draws: &WorldDraws) -> Result<Vec<Said<'a>
             let given = steps.iter().enumerate().map(|(bit, step)| usize::from(is_good(step)) << bit).sum();
             add(answering.critique(&steps)?, given);
         }
-        for message in record.preference.iter().filter(|message| is_sure(message.confidence)) {
-            let [worse, better] = message.trajectories.as_slice() else { continue };
-            let model = AnswerModel { wrong_rate: preferences.1, ..AnswerModel::default() };
-            let utilities = (0..optima.n()).map(|draw| {
-                let betas = &preferences.0;
-                let gain: f64 = optima
-                    .weights(draw)
-                    .iter()
-                    .zip(worse.features.iter().zip(&better.features))
-                    .map(|(w, (worse, better))| w * (better - worse))
-                    .sum();
-                betas[if betas.len() == 1 { 0 } else { draw }] * gain
-            });
-            let answers = comparison_answers(utilities, &model)?;
-            let given = match message.answer {
-                TrajectoryPreference::RANKED => 1,
-                TrajectoryPreference::EQUAL => 2,
-                _ => 3,
-            };
-            if given < answers.n() {
-                add(answers, given);
-            }
+        for message in &record.preference {
+            found.extend(compared(record, message, (&draws.weights, world.feature_names.len()), &preferences)?);
         }
     }
     found.reverse();

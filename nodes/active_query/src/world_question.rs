@@ -1,8 +1,10 @@
 //! Which question about a world is asked (dissertation chapter 8): a function of settings, posterior, world, evidence and bounds.
 
+use crate::fit_words;
+use crate::question_id::{short_hash, world_query_id};
 use crate::settings::{QuestionKind, Settings, Strategy};
 use crate::world_draws::WorldDraws;
-use crate::world_rests::{Rests, world_query_id};
+use crate::world_rests::Rests;
 use crate::world_subjects::{Subject, Ways, situations};
 use crate::world_words::{self, Why};
 use apprentice_msgs::msg::{
@@ -19,7 +21,6 @@ use mdp::random::uniform;
 use mdp::{Mdp, Policy};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use sha2::{Digest, Sha256};
 
 /// A loss of the policy that chooses at random divides as no less than this.
 const FLOOR: f64 = 1e-9;
@@ -75,7 +76,7 @@ pub(crate) fn asked_by(
     };
     // What is drawn at random is asked for another reason; a gain that was not reckoned is NaN, which is not below anything.
     if !query.held_out && query.gain_per_second < settings.least_gain_per_second {
-        let reason = world_words::not_worth_it(query.gain_per_second, settings.least_gain_per_second);
+        let reason = fit_words::not_worth_it(query.gain_per_second, settings.least_gain_per_second);
         return Ok((None, LessonStatus { state: LessonStatus::GAVE_UP, reason, ..lesson.clone() }));
     }
     let questions_asked = lesson.questions_asked.saturating_add(1);
@@ -394,15 +395,6 @@ impl Scoring<'_> {
     fn mdp(&self) -> &Mdp {
         &self.inputs.world.mdp
     }
-}
-
-/// Ties an id to the evidence.
-fn short_hash(seed: i64, posterior: &Posterior) -> String {
-    let mut hash = Sha256::new();
-    hash.update(seed.to_le_bytes());
-    hash.update(posterior.revision.to_le_bytes());
-    hash.update(posterior.evidence_hash.as_bytes());
-    hash.finalize().iter().take(4).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// A world is checked to be small, so that its numbers fit.

@@ -1,7 +1,8 @@
 //! What was asked about a world before, by the answers in force: ids of questions say what they are about.
 
+use crate::question_id::{question_answered, question_skipped, world_subject};
 use crate::settings::QuestionKind;
-use apprentice_msgs::msg::{EvidenceLog, EvidenceRecord, QueryResponse};
+use apprentice_msgs::msg::EvidenceLog;
 use exchange::in_force;
 use std::collections::BTreeSet;
 
@@ -52,29 +53,9 @@ impl Rests {
     }
 }
 
-/// The id of a question about a world: unique within a session, since every accepted event makes a new revision.
-/// Its letter is a capital when it was drawn at random to be held out.
-pub(crate) fn world_query_id(
-    revision: u64,
-    kind: QuestionKind,
-    state: usize,
-    is_held_out: bool,
-    short_hash: &str,
-) -> String {
-    let letter = match (kind, is_held_out) {
-        (QuestionKind::Action, false) => 'a',
-        (QuestionKind::Critique, false) => 'k',
-        (QuestionKind::Comparison, false) => 'c',
-        (QuestionKind::Action, true) => 'A',
-        (QuestionKind::Critique, true) => 'K',
-        (QuestionKind::Comparison, true) => 'C',
-    };
-    format!("w{revision}-{letter}{state}-{short_hash}")
-}
-
-/// What a question of [`world_query_id`] is about.
+/// What a question about a world is about, by its id.
 fn about(id: &str) -> Option<About> {
-    let subject = subject(id)?;
+    let subject = world_subject(id)?;
     let kind = match subject.chars().next()? {
         'a' | 'A' => QuestionKind::Action,
         'k' | 'K' => QuestionKind::Critique,
@@ -84,36 +65,10 @@ fn about(id: &str) -> Option<About> {
     Some((kind, subject[1..].parse().ok()?))
 }
 
-fn subject(id: &str) -> Option<&str> {
-    let mut parts = id.strip_prefix('w')?.split('-');
-    let _revision: u64 = parts.next()?.parse().ok()?;
-    parts.next()
-}
-
-/// Whether a record answers a question that was drawn at random to be held out.
-pub(crate) fn asked_at_random(record: &EvidenceRecord) -> bool {
-    let is_capital = |id: &str| subject(id).is_some_and(|subject| subject.starts_with(['A', 'K', 'C']));
-    question_answered(record).is_some_and(|id| is_capital(id))
-}
-
-/// The question that a record answers.
-pub(crate) fn question_answered(record: &EvidenceRecord) -> Option<&String> {
-    let id = None
-        .or(record.actions.first().map(|m| &m.query_id))
-        .or(record.preference.first().map(|m| &m.query_id))
-        .or(record.critique.first().map(|m| &m.query_id));
-    id.filter(|id| !id.is_empty())
-}
-
-/// The question that a record skips.
-pub(crate) fn question_skipped(record: &EvidenceRecord) -> Option<&String> {
-    let passed = [QueryResponse::SKIP, QueryResponse::CANT_TELL];
-    record.response.first().filter(|m| passed.contains(&m.kind)).map(|m| &m.query_id).filter(|id| !id.is_empty())
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{RESTS, Rests, about, world_query_id};
+    use super::{RESTS, Rests, about};
+    use crate::question_id::world_query_id;
     use crate::settings::QuestionKind;
     use apprentice_msgs::msg::{ActionDemonstration, EvidenceLog, EvidenceRecord, QueryResponse, Retraction};
 

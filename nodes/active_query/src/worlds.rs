@@ -11,6 +11,7 @@ use apprentice_msgs::msg::{
 };
 use apprentice_msgs::to_cdr;
 use exchange::{MAX_ID, World, world_from_message, world_hash};
+use std::sync::Arc;
 
 /// Ticks in a second.
 pub(crate) const TICKS_PER_SECOND: f64 = 10.0;
@@ -21,11 +22,13 @@ pub(crate) struct Worlds {
     posterior: Option<Box<Posterior>>,
     bounds: Option<Box<PolicyBounds>>,
     world: Option<World>,
-    log: Option<Box<EvidenceLog>>,
+    log: Option<Arc<EvidenceLog>>,
     /// The state of the lesson by the bounds that came last.
     known: Option<LessonStatus>,
     /// The same by how well the evidence fits, too; without its question.
     lesson: Option<LessonStatus>,
+    /// As it was sent last.
+    sent: Option<LessonStatus>,
     /// What that and the question were chosen by.
     draws: Option<WorldDraws>,
     query: Option<Box<WorldQuery>>,
@@ -53,7 +56,7 @@ impl Worlds {
         }
     }
 
-    pub fn take_log(&mut self, log: Box<EvidenceLog>) {
+    pub fn take_log(&mut self, log: Arc<EvidenceLog>) {
         self.log = Some(log);
     }
 
@@ -76,9 +79,20 @@ impl Worlds {
         }
     }
 
-    /// Where the lesson stands and what is asked, when that is news. A question waits for the world and the evidence that it is
-    /// about, and the state of the lesson with it.
+    /// Where the lesson stands and what is asked, when that is news.
     pub fn news(&mut self, settings: &Settings) -> Vec<Output> {
+        let outputs = self.learn(settings);
+        for output in &outputs {
+            if let Output::Lesson(lesson) = output {
+                self.sent = Some(lesson.clone());
+            }
+        }
+        outputs
+    }
+
+    /// What is made of what has come. A question waits for the world and the evidence that it is
+    /// about, and the state of the lesson with it.
+    fn learn(&mut self, settings: &Settings) -> Vec<Output> {
         let (Some(posterior), Some(bounds)) = (&self.posterior, &self.bounds) else { return Vec::new() };
         let Some(known) = world_lesson(settings, posterior, bounds) else { return Vec::new() };
         if self.known.as_ref().is_some_and(|before| to_cdr(before) == to_cdr(&known)) {
@@ -182,9 +196,10 @@ impl Worlds {
         Some(Output::WorldQuery(query))
     }
 
-    /// The open question, to be sent again.
-    pub fn open(&self) -> Option<Output> {
-        self.query.clone().map(Output::WorldQuery)
+    /// Everything that is current, to be sent again.
+    pub fn republish(&self) -> Vec<Output> {
+        let lesson = self.sent.clone().map(Output::Lesson);
+        self.query.clone().map(Output::WorldQuery).into_iter().chain(lesson).collect()
     }
 
     /// Says something once, until there is something else to say.

@@ -4,8 +4,10 @@ use active_query::{ActiveQuery, Event, Output, Settings, Strategy};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
-    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior, SceneObject, TableScene,
+    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior, Rationality,
+    SceneObject, TableScene,
 };
+use apprentice_msgs::to_cdr;
 use bus::testing::check_parameters;
 
 fn object(id: &str, x: f64, y: f64) -> SceneObject {
@@ -168,7 +170,7 @@ fn what_is_pending_is_sent_again_unchanged() {
     let (query, lesson) = verdict(&mut node, bounds(1, &[0.2; 4]));
     let again = step(&mut node, Event::Republish);
     let [Output::Query(q), Output::Lesson(l)] = again.as_slice() else { panic!("{again:?}") };
-    assert_eq!(**q, query.expect("the bound is above ε"));
+    assert_eq!(to_cdr(&**q), to_cdr(&query.expect("the bound is above ε")));
     assert_eq!(l.query_id, lesson.query_id);
     assert!(step(&mut node, Event::Bounds(Box::new(bounds(1, &[0.05; 4])))).is_empty(), "a repetition changes nothing");
 }
@@ -182,7 +184,7 @@ fn a_question_depends_on_the_evidence_alone() {
             verdict(&mut node, bounds(0, &[0.3]));
         }
         candidates(&mut node, posterior(1, 1));
-        verdict(&mut node, bounds(1, &[0.2; 4])).0
+        to_cdr(&verdict(&mut node, bounds(1, &[0.2; 4])).0.expect("the bound is above ε"))
     };
     assert_eq!(ask(false), ask(true));
 }
@@ -197,6 +199,10 @@ fn a_posterior_with_a_broken_scene_is_told_and_survived() {
     assert_eq!(candidates(&mut node, posterior(1, 1)).scenes.len(), 4);
 }
 
+fn rationality(kind: &str, n: u64) -> Rationality {
+    Rationality { kind: kind.into(), n, mean: 50.0, ..Rationality::default() }
+}
+
 /// A posterior with draws: they agree about the cup and the table's middle, and differ in whether the plate attracts or repels.
 fn drawn() -> Posterior {
     let names = ["cup", "plate"].map(String::from).into_iter().chain((0..9).map(|i| format!("table {i}")));
@@ -209,9 +215,11 @@ fn drawn() -> Posterior {
     Posterior {
         feature_names: names.collect(),
         n_draws: 40,
+        n_chains: 4,
         draws: (0..40).flat_map(draw).collect(),
         map_weights: draw(1).map(f64::from).to_vec(),
         beta: 50.0,
+        rationalities: vec![rationality("placements", 1), rationality("preferences", 0)],
         ..posterior(1, 1)
     }
 }
@@ -219,7 +227,7 @@ fn drawn() -> Posterior {
 #[test]
 fn the_strategy_decides_which_imagined_table_is_asked_about() {
     let asked = |strategy, seed| {
-        let mut node = ActiveQuery::new(Settings { strategy, seed, n_candidates: 12, ..Settings::default() });
+        let mut node = ActiveQuery::new(Settings { strategy, seed, n_candidates: 12, hold_out_share: 0.0, ..Settings::default() });
         let tables = candidates(&mut node, drawn());
         let n = tables.scenes.len();
         // The first has the largest bound; the last is the table of the lesson.
@@ -244,12 +252,12 @@ fn the_strategy_decides_which_imagined_table_is_asked_about() {
 fn draws_that_do_not_fit_are_told_and_the_largest_bound_is_asked_about() {
     let mut node =
         ActiveQuery::new(Settings { strategy: Strategy::Information, n_candidates: 3, ..Settings::default() });
-    let n = candidates(&mut node, Posterior { beta: 0.0, ..drawn() }).scenes.len();
+    let n = candidates(&mut node, Posterior { n_chains: 0, ..drawn() }).scenes.len();
     let mut all = vec![0.3; n];
     all[1] = 0.4;
     match step(&mut node, Event::Bounds(Box::new(bounds(1, &all)))).as_slice() {
         [Output::Warn(text), Output::Query(query), Output::Lesson(_)] => {
-            assert!(text.contains("rationality"), "{text}");
+            assert!(text.contains("0 chains"), "{text}");
             assert_eq!(query.bound_m, 0.4);
         }
         other => panic!("a warning and a question were expected, got {other:?}"),

@@ -3,14 +3,17 @@
 use crate::world_story::WorldStory;
 use crate::{Kind, Topic};
 use apprentice_msgs::action::PlaceObjectResult;
+use apprentice_msgs::geometry_msgs::Point;
 use apprentice_msgs::msg::{
     Carrying, EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementPlan,
-    PlacementQuery, QueryResponse, TableScene,
+    PlacementOption, PlacementQuery, QueryResponse, TableScene, TrajectoryPreference,
 };
 use exchange::motion_seconds;
 
 /// Cells of the bar that shows a bound.
 const BAR: usize = 24;
+/// Places that were offered and are remembered.
+const MAX_OFFERED: usize = 16;
 /// Longest text of others that goes into a sentence, characters.
 const MAX_TEXT: usize = 160;
 
@@ -23,6 +26,8 @@ pub struct Story {
     asked: Option<TableScene>,
     /// The newest question, which is told after the bound that it comes from.
     held: Option<(u64, String)>,
+    /// The places that the newest questions offered.
+    offered: Vec<Offered>,
     told_evidence: Option<u64>,
     bounds: Option<PerformanceBounds>,
     lesson: Option<LessonStatus>,
@@ -91,7 +96,17 @@ impl Story {
         };
         let number = self.questions.len();
         let target = short(&query.scene.target.label);
-        self.held = Some((query.revision, format!("{number:<3} where does the {target} belong{when}?  {risk}")));
+        let question = match query.options.as_slice() {
+            [a, b] => {
+                let two = [(a, "A"), (b, "B")].map(|(option, name)| Offered::new(option, name));
+                let places: Vec<String> = two.iter().map(Offered::to_string).collect();
+                self.offered.drain(..(self.offered.len() + 2).saturating_sub(MAX_OFFERED));
+                self.offered.extend(two);
+                format!("which is better for the {target}{when}, {}?", places.join(" or "))
+            }
+            _ => format!("where does the {target} belong{when}?"),
+        };
+        self.held = Some((query.revision, format!("{number:<3} {question}  {risk}")));
     }
 
     /// The held question, if it comes from this revision or an earlier one.
@@ -110,7 +125,7 @@ impl Story {
         }
         let told = told.unwrap_or(0);
         let new = log.records.iter().filter(|record| record.sequence > told);
-        new.map(|record| (Kind::Answer, format!("{:<3} {}", record.sequence, said(record)))).collect()
+        new.map(|record| (Kind::Answer, format!("{:<3} {}", record.sequence, said(record, &self.offered)))).collect()
     }
 
     /// The bound and the lesson's state come on two topics, in either order; they are told once both are there.
@@ -184,8 +199,29 @@ fn moved(table: &TableScene, scene: &TableScene) -> String {
     sentences.collect::<Vec<_>>().join(" and ")
 }
 
+/// A place that a question offers: "A (0.50, 0.50) m".
+#[derive(Debug)]
+struct Offered {
+    /// Of its trajectory.
+    id: String,
+    name: &'static str,
+    at: Point,
+}
+
+impl Offered {
+    fn new(option: &PlacementOption, name: &'static str) -> Self {
+        Self { id: option.trajectory.id.clone(), name, at: option.placement }
+    }
+}
+
+impl std::fmt::Display for Offered {
+    fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(to, "{} ({:.2}, {:.2}) m", self.name, self.at.x, self.at.y)
+    }
+}
+
 /// "simulated person: (0.50, 0.50) m → revision 3".
-fn said(record: &EvidenceRecord) -> String {
+fn said(record: &EvidenceRecord, offered: &[Offered]) -> String {
     let who = |source: &str| short(source).replace('_', " ");
     let revision = format!("\u{2192} revision {}", record.sequence);
     if let Some(shown) = record.demonstration.first() {
@@ -208,6 +244,18 @@ fn said(record: &EvidenceRecord) -> String {
         };
         let reason = if response.reason.is_empty() { String::new() } else { format!(" ({})", short(&response.reason)) };
         return format!("{}: {words}{reason}  {revision}", who(&response.source));
+    }
+    if let Some(preference) = record.preference.first()
+        && let [worse, better] = preference.trajectories.as_slice()
+        && let Some(better) = offered.iter().find(|offered| offered.id == better.id)
+        && offered.iter().any(|offered| offered.id == worse.id)
+    {
+        let words = match preference.answer {
+            TrajectoryPreference::RANKED => format!("{better} is better"),
+            TrajectoryPreference::EQUAL => "both are about equal".to_owned(),
+            _ => "I can't tell which is better".to_owned(),
+        };
+        return format!("{}: {words}  {revision}", who(&preference.source));
     }
     let other = None
         .or(record.actions.first().map(|m| (&m.source, counted(m.states.len(), "action"))))

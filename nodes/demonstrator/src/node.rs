@@ -1,7 +1,7 @@
 //! The node as a pure state machine: questions and worlds in, answers and walks out, each repeated until its receipt comes.
 
 use crate::teaching::Teaching;
-use crate::{Answer, Person, Piece, Settings, answer_id};
+use crate::{Answer, Comparison, Person, Piece, Settings, answer_id};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs;
 use apprentice_msgs::msg::{
@@ -10,6 +10,7 @@ use apprentice_msgs::msg::{
 };
 use apprentice_msgs::std_msgs::Header;
 use exchange::MAX_ID;
+use scene::Point;
 
 /// Most answers waiting for a receipt; beyond it the oldest is dropped, which only its asker could have wanted.
 pub const MAX_PENDING: usize = 64;
@@ -40,7 +41,7 @@ pub enum Output {
     Response(QueryResponse),
     /// What to do in a world.
     Actions(Box<ActionDemonstration>),
-    /// Which of two walks is better.
+    /// Which of two walks or places is better.
     Preference(Box<TrajectoryPreference>),
     /// What is good and what is bad in a walk.
     Critique(Box<SegmentCritique>),
@@ -189,7 +190,6 @@ impl DemonstratorNode {
             outputs.push(Output::Warning(text));
             self.warned_features = true;
         }
-        let answer = self.person.answer(&query.id, &scene).map_err(|error| error.to_string())?;
         let id = answer_id(&self.source, &query.id, self.seed);
         let header = Header { stamp: *now, frame_id: query.scene.header.frame_id.clone() };
         let response = |header, id, kind, reason: &str| {
@@ -202,6 +202,25 @@ impl DemonstratorNode {
                 reason: reason.to_owned(),
             })
         };
+        if let [first, second] = query.options.as_slice() {
+            let places_m = [first, second].map(|option| Point::new(option.placement.x, option.placement.y));
+            let said = self.person.compare(&query.id, &scene, places_m).map_err(|error| error.to_string())?;
+            let Comparison::Said { answer, second_is_better } = said else {
+                return Ok(response(header, id, QueryResponse::SKIP, ""));
+            };
+            // Worst first.
+            let [worse, better] = if second_is_better { [first, second] } else { [second, first] };
+            return Ok(Output::Preference(Box::new(TrajectoryPreference {
+                header,
+                id,
+                query_id: query.id.clone(),
+                source: self.source.clone(),
+                trajectories: vec![worse.trajectory.clone(), better.trajectory.clone()],
+                answer,
+                confidence: TrajectoryPreference::CONFIDENCE_SURE,
+            })));
+        }
+        let answer = self.person.answer(&query.id, &scene).map_err(|error| error.to_string())?;
         Ok(match answer {
             Answer::Place(at_m) => Output::Demonstration(Box::new(PlacementDemonstration {
                 header,

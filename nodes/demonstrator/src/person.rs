@@ -1,5 +1,6 @@
 //! The person: a reward over placements, and the way of choosing from it.
 
+use crate::comparing::Comparing;
 use crate::identity::generator;
 use crate::{Noise, Settings};
 use bus::NodeSettings;
@@ -26,6 +27,20 @@ pub enum Answer {
     },
 }
 
+/// What a person says to "which of these two places is better?".
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Comparison {
+    /// An answer of a [`TrajectoryPreference`](apprentice_msgs::msg::TrajectoryPreference).
+    Said {
+        /// Which.
+        answer: u8,
+        /// Whether the second is the better one, whatever is said.
+        second_is_better: bool,
+    },
+    /// Ask something else.
+    Skip,
+}
+
 /// Why a person cannot even look at a scene.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PersonError {
@@ -45,6 +60,7 @@ pub struct Person {
     skip_rate: f64,
     cant_tell_rate: f64,
     mistake_rate: f64,
+    comparing: Comparing,
 }
 
 impl Person {
@@ -60,6 +76,7 @@ impl Person {
             skip_rate: settings.skip_rate,
             cant_tell_rate: settings.cant_tell_rate,
             mistake_rate: settings.mistake_rate,
+            comparing: Comparing::new(settings),
         }
     }
 
@@ -104,6 +121,22 @@ impl Person {
             Some(at) => Answer::Place(scene.metres(at)),
             None => Answer::CantTell { reason: "there is no free place on this table" },
         })
+    }
+
+    /// Which of two places on a table, in metres, is better: a function of the settings, the question's id, its scene and the places.
+    ///
+    /// # Errors
+    /// When the scene breaks the rules of scenes.
+    pub fn compare(&self, query_id: &str, scene: &Scene, places_m: [Point; 2]) -> Result<Comparison, PersonError> {
+        scene.check()?;
+        let mut random = generator(&self.source, query_id, self.seed);
+        if uniform(&mut random) < self.skip_rate {
+            return Ok(Comparison::Skip);
+        }
+        let (rbf, w) = (Rbf::new(scene), self.weights(scene));
+        let worth = places_m.map(|at_m| rbf.reward(&w, scene.normalised(at_m)));
+        let (answer, second_is_better) = self.comparing.say(worth, &mut random);
+        Ok(Comparison::Said { answer, second_is_better })
     }
 }
 

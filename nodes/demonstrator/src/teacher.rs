@@ -1,16 +1,14 @@
 //! What a simulated person shows in a world: walks of a good hand, and which of two walks is better.
 
+use crate::comparing::{Comparing, TIE};
 use crate::identity::{answer_id, generator};
 use crate::{Noise, Settings};
 use apprentice_msgs::msg::{ActionDemonstration, FeatureTrajectory, TrajectoryPreference};
 use bus::NodeSettings;
 use exchange::World;
-use mdp::random::{categorical, l1_sphere, uniform};
+use mdp::random::{categorical, l1_sphere};
 use mdp::{Mdp, MdpError, Policy, Solver, rollout};
 use rand_chacha::ChaCha8Rng;
-
-/// Values this much below the best, as a share of the largest, are as good as the best.
-pub(crate) const TIE: f64 = 1e-9;
 
 /// A piece of evidence that nobody asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,12 +100,12 @@ impl Teacher {
     /// Two walks from one start, each good for some reward or other, so that they differ in what they collect.
     fn compare(&self, id: String, random: &mut ChaCha8Rng) -> Result<Piece, MdpError> {
         let start = self.start(random);
-        let mut collected = Vec::new();
-        for name in ["a", "b"] {
+        let mut collected = <[FeatureTrajectory; 2]>::default();
+        for (walk, name) in collected.iter_mut().zip(["a", "b"]) {
             let taste = l1_sphere(self.world.mdp.n_features(), random);
             let policy = Policy::Deterministic(Solver::new(&self.world.mdp).solve(&taste).policy().to_vec());
             let steps = self.walk(&policy, start, self.settings.compare_steps, random)?;
-            collected.push(FeatureTrajectory { id: format!("{id}-{name}"), features: self.features(&steps) });
+            *walk = FeatureTrajectory { id: format!("{id}-{name}"), features: self.features(&steps) };
         }
         let (answer, second_is_better) = self.compares(&collected, random);
         if !second_is_better {
@@ -116,7 +114,7 @@ impl Teacher {
         Ok(Piece::Compare(Box::new(TrajectoryPreference {
             id,
             source: self.settings.source.clone(),
-            trajectories: collected,
+            trajectories: collected.into(),
             answer,
             confidence: TrajectoryPreference::CONFIDENCE_SURE,
             ..TrajectoryPreference::default()
@@ -124,28 +122,9 @@ impl Teacher {
     }
 
     /// How the person answers which of two is better, and which it is, whatever is answered.
-    pub(crate) fn compares(&self, of: &[FeatureTrajectory], random: &mut ChaCha8Rng) -> (u8, bool) {
-        let value = |of: &FeatureTrajectory| -> f64 { of.features.iter().zip(&self.weights).map(|(f, w)| f * w).sum() };
-        let (first, second) = (value(&of[0]), value(&of[1]));
-        let size: f64 = first.abs().max(second.abs());
-        let mood = uniform(random);
-        let chance = uniform(random);
-        let mistaken = mood < self.settings.mistake_rate;
-        let unsure = !mistaken && mood < self.settings.mistake_rate + self.settings.cant_tell_rate;
-        let answer = match () {
-            () if unsure => TrajectoryPreference::CANT_TELL,
-            () if !mistaken && self.settings.noise == Noise::None && (first - second).abs() <= TIE * size => {
-                TrajectoryPreference::EQUAL
-            }
-            () => TrajectoryPreference::RANKED,
-        };
-        let second_is_better = match self.settings.noise {
-            _ if mistaken => chance < 0.5,
-            Noise::None => second > first,
-            // P(second better) = 1 / (1 + exp(−β (second − first))).
-            Noise::Boltzmann => chance < 1.0 / (1.0 + scene::exp(-self.settings.beta * (second - first))),
-        };
-        (answer, second_is_better)
+    pub(crate) fn compares(&self, of: &[FeatureTrajectory; 2], random: &mut ChaCha8Rng) -> (u8, bool) {
+        let worth = |of: &FeatureTrajectory| of.features.iter().zip(&self.weights).map(|(f, w)| f * w).sum();
+        Comparing::new(&self.settings).say([worth(&of[0]), worth(&of[1])], random)
     }
 
     fn start(&self, random: &mut ChaCha8Rng) -> usize {

@@ -1,7 +1,7 @@
 //! What a simulated person answers when a question about a world is asked.
 
 use crate::identity::{answer_id, generator};
-use crate::teacher::TIE;
+use crate::comparing::TIE;
 use crate::{Noise, Output, Teacher};
 use apprentice_msgs::msg::{
     ActionDemonstration, CritiqueSegment, QueryResponse, SegmentCritique, TrajectoryPreference, WorldQuery,
@@ -43,7 +43,7 @@ impl Teacher {
                 confidence: ActionDemonstration::CONFIDENCE_SURE,
             })),
             [first, second] => {
-                let mut trajectories = vec![feature_trajectory(first), feature_trajectory(second)];
+                let mut trajectories = [feature_trajectory(first), feature_trajectory(second)];
                 let (mut answer, second_is_better) = self.compares(&trajectories, &mut random);
                 if is_unsure {
                     answer = TrajectoryPreference::CANT_TELL;
@@ -57,7 +57,7 @@ impl Teacher {
                     id,
                     query_id,
                     source,
-                    trajectories,
+                    trajectories: trajectories.into(),
                     answer,
                     confidence,
                 }))

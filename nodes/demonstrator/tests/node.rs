@@ -1,7 +1,9 @@
 //! Claims about when the simulated person speaks.
 
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::msg::{EvidenceReceipt, PlacementQuery, QueryResponse};
+use apprentice_msgs::msg::{
+    EvidenceReceipt, FeatureTrajectory, PlacementOption, PlacementQuery, QueryResponse, TrajectoryPreference,
+};
 use bus::NodeSettings;
 use demonstrator::{DemonstratorNode, Event, MAX_PENDING, Output, Settings, answer_id};
 use scene::{Object, Point, Scene, Shape};
@@ -147,4 +149,48 @@ fn settings_that_contradict_each_other_are_refused_by_name() {
         assert!(settings.check().is_err_and(|text| text.contains(named)));
     }
     assert_eq!(Settings::default().check(), Ok(()));
+}
+
+/// Which of two places on the table of [`query`], A and B.
+fn pair(id: &str, a: (f64, f64), b: (f64, f64)) -> Box<PlacementQuery> {
+    let option = |(x, y): (f64, f64), name: &str| PlacementOption {
+        placement: apprentice_msgs::geometry_msgs::Point { x, y, z: 0.0 },
+        trajectory: FeatureTrajectory { id: format!("{id}-{name}"), features: vec![x, y] },
+    };
+    Box::new(PlacementQuery { options: vec![option(a, "a"), option(b, "b")], ..*query(id) })
+}
+
+#[test]
+fn which_of_two_places_is_better_is_said_worst_first_by_the_hidden_reward() {
+    let said = |settings: &Settings, query: Box<PlacementQuery>| {
+        let outputs = DemonstratorNode::new(settings).step(at(1.0), Event::Query(query));
+        let [Output::Preference(message)] = outputs.as_slice() else { panic!("{outputs:?}") };
+        assert_eq!((message.query_id.as_str(), message.id.clone()), ("q1", answer_id("simulated_person", "q1", 1)));
+        let names: String = message.trajectories.iter().map(|of| of.id.chars().last().expect("a name")).collect();
+        assert_eq!(message.trajectories[0].features.len(), 2, "they are sent as they were asked");
+        (names, message.answer)
+    };
+    let person = Settings::default();
+    let (middle, corner) = ((0.5, 0.5), (0.9, 0.1));
+    assert_eq!(said(&person, pair("q1", middle, corner)), ("ba".to_owned(), TrajectoryPreference::RANKED));
+    assert_eq!(said(&person, pair("q1", corner, middle)), ("ab".to_owned(), TrajectoryPreference::RANKED));
+    assert_eq!(said(&person, pair("q1", middle, middle)).1, TrajectoryPreference::EQUAL);
+    let unsure = Settings { cant_tell_rate: 1.0, ..Settings::default() };
+    assert_eq!(said(&unsure, pair("q1", middle, corner)).1, TrajectoryPreference::CANT_TELL);
+    let skipping = Settings { skip_rate: 1.0, ..Settings::default() };
+    let outputs = DemonstratorNode::new(&skipping).step(at(1.0), Event::Query(pair("q1", middle, corner)));
+    assert!(matches!(outputs.as_slice(), [Output::Response(said)] if said.kind == QueryResponse::SKIP), "{outputs:?}");
+    // β (R − R') of a Boltzmann person: with β ln 3 / (R − R') three in four say that the middle is better.
+    let scene = exchange::scene_from_message(&query("q1").scene).expect("a good scene");
+    let rbf = scene::Rbf::new(&scene);
+    let weights = demonstrator::Person::new(&person).weights(&scene);
+    let gap = rbf.reward(&weights, Point::new(0.5, 0.5)) - rbf.reward(&weights, Point::new(0.9, 0.1));
+    let noisy = |seed| Settings { seed, noise: demonstrator::Noise::Boltzmann, beta: 3.0_f64.ln() / gap, ..Settings::default() };
+    let right = (0..400).filter(|&seed| {
+        let outputs = DemonstratorNode::new(&noisy(seed)).step(at(1.0), Event::Query(pair("q1", corner, middle)));
+        matches!(outputs.as_slice(), [Output::Preference(said)] if said.trajectories[1].id.ends_with('b'))
+    });
+    // Three standard deviations of a binomial of 400 and 3/4.
+    let right = right.count();
+    assert!((274..=326).contains(&right), "{right} of 400");
 }

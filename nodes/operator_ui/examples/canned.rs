@@ -8,7 +8,7 @@ mod world;
 
 use apprentice_msgs::msg::{
     EvidenceLog, EvidenceReceipt, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementDemonstration,
-    PlacementPlan, PlacementQuery, Posterior, QueryResponse, Retraction, TableScene,
+    PlacementPlan, PlacementQuery, Posterior, QueryResponse, Retraction, TableScene, TrajectoryPreference,
 };
 use bus::{Arguments, Bus, EventSender, Graph, MemoryGraph, NodeError, NodeSettings, ParameterSpec, Publisher, Qos};
 use serde::{Deserialize, Serialize};
@@ -26,6 +26,7 @@ impl NodeSettings for NoSettings {
 
 enum Event {
     Demonstration(Box<PlacementDemonstration>),
+    Preference(Box<TrajectoryPreference>),
     Retraction(Box<Retraction>),
     Response(Box<QueryResponse>),
     Revised,
@@ -48,7 +49,8 @@ struct Lesson {
 impl Lesson {
     fn revise(&self) -> Result<(), NodeError> {
         let revision = self.records.len() as u64;
-        let question = world::query(revision);
+        // Every third question is which of two places is better.
+        let question = if revision % 3 == 2 { world::pair(revision) } else { world::query(revision) };
         let task = world::scene("task", 0.0);
         self.posterior.publish(&world::posterior(revision))?;
         self.bounds.publish(&world::bounds(revision))?;
@@ -67,6 +69,7 @@ impl Lesson {
             r.demonstration.iter().any(|m| m.id == id)
                 || r.retraction.iter().any(|m| m.id == id)
                 || r.response.iter().any(|m| m.id == id)
+                || r.preference.iter().any(|m| m.id == id)
         };
         if !self.records.iter().any(known) {
             self.records.push(EvidenceRecord { sequence: self.records.len() as u64 + 1, ..record });
@@ -86,6 +89,7 @@ fn teach(graph: &Graph) -> Result<(), NodeError> {
     let none = Arguments::parse(&[])?;
     let mut bus: Bus<Event> = Bus::open(graph, &none, &NoSettings {})?;
     bus.subscribe("demonstration", Qos::Event, |m| Event::Demonstration(Box::new(m)))?;
+    bus.subscribe("preference", Qos::Event, |m| Event::Preference(Box::new(m)))?;
     bus.subscribe("retraction", Qos::Event, |m| Event::Retraction(Box::new(m)))?;
     bus.subscribe("response", Qos::Event, |m| Event::Response(Box::new(m)))?;
     let mut lesson = Lesson {
@@ -108,6 +112,11 @@ fn teach(graph: &Graph) -> Result<(), NodeError> {
             Event::Demonstration(message) => {
                 let record = world::record(0, &message);
                 lesson.accept(&message.id, record)?;
+            }
+            Event::Preference(message) => {
+                let id = message.id.clone();
+                let kind = EvidenceRecord::PREFERENCE;
+                lesson.accept(&id, EvidenceRecord { kind, preference: vec![*message], ..EvidenceRecord::default() })?;
             }
             Event::Retraction(message) => {
                 let record = world::retraction_record(0, &message);

@@ -5,6 +5,7 @@ import { Carry } from "./carry.js";
 import { cm, isUnreachable, obstruction } from "./geometry.js";
 import { Link, newId } from "./link.js";
 import { colour, range } from "./maps.js";
+import { Pair } from "./pair.js";
 import { drawReceipt } from "./receipt.js";
 import { drawReport } from "./report.js";
 import { Session, lessonStart } from "./session.js";
@@ -21,6 +22,7 @@ const own = { question: undefined, at: null, revealed: false, heat: false, sent:
 const table = new TableView($("table"), { moved, submitted: submit, hovered });
 const link = new Link({ status, sections, refused, notice });
 const world = new WorldLesson(link, { undo, redo, changed: () => render() });
+const pair = new Pair({ changed: () => render(), submitted: submit });
 const session = new Session({ send: (command) => send(command), ask: (command) => link.ask(command), undo });
 const carry = new Carry(() => render());
 const again = new Set();
@@ -33,6 +35,8 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 const lessonState = () => state.lesson?.state ?? "waiting";
 const isAsking = () => Boolean(state.question?.open) && own.sentFor !== state.question.id;
 const isTeaching = () => isAsking() || (own.correcting && !state.question?.open && own.sentFor !== "");
+/** Whether one of two places is wanted, and not any. */
+const isPair = () => showsQuestion() && pair.wants(state.question);
 const showsQuestion = () => Boolean(state.question) && (state.question.open || lessonState() === "asking") && !own.correcting;
 const scene = () => (showsQuestion() ? state.question.scene : state.scene ?? state.question?.scene ?? null);
 
@@ -54,6 +58,7 @@ function sections(changed) {
   if (changed.loss_trend?.[0]?.revision > 0) changed.loss_trend = [...state.loss_trend.filter((point) => point.revision < changed.loss_trend[0].revision), ...changed.loss_trend];
   Object.assign(state, changed);
   world.settle(state);
+  pair.settle(state.question);
   const sent = state.answers.find((answer) => answer.id === own.sent);
   if (sent?.state === "refused" && own.sentFor !== null) Object.assign(own, { sentFor: null, problem: ANSWER.refused(sent.reason) });
   if (own.correcting && own.sentFor === "" && sent?.state === "accepted") Object.assign(own, { correcting: false, sentFor: null, at: null, revealed: false });
@@ -113,12 +118,17 @@ function hovered(at) {
   renderReadout();
 }
 
+const confidence = () => document.querySelector('input[name="confidence"]:checked').value;
+
 function submit() {
-  if ($("submit").disabled || !own.at) return;
+  if ($("submit").disabled) return;
   const query = state.question?.open ? state.question.id : "";
-  const confidence = document.querySelector('input[name="confidence"]:checked').value;
-  send({ type: "place", id: newId(), query_id: query, x_m: own.at.x, y_m: own.at.y, confidence }, query);
+  if (isPair()) return compare(pair.better);
+  if (!own.at) return;
+  send({ type: "place", id: newId(), query_id: query, x_m: own.at.x, y_m: own.at.y, confidence: confidence() }, query);
 }
+
+function compare(better) { send({ type: "compare", id: newId(), query_id: state.question.id, better, confidence: confidence() }, state.question.id); }
 
 /** Skipping answers the open question; stopping works whatever is asked. */
 function respond(kind, reason = "") {
@@ -145,7 +155,8 @@ const isActive = (answer) => answer.state === "accepted" || answer.state === "pe
 const sameSpot = (a, b) => a.x_m === b.x_m && a.y_m === b.y_m && a.scene?.id === b.scene?.id;
 /** The answer taken back last, unless something else was said since: redo walks the undos back, across questions. */
 function lastUndone() {
-  if (!isAboutWorld()) return state.answers.findLast((a) => a.kind === "placement" && a.state === "undone" && !state.answers.some((b) => isActive(b) && sameSpot(a, b)));
+  const isGiven = (a) => (a.kind === "placement" ? state.answers.some((b) => isActive(b) && sameSpot(a, b)) : again.has(a.id));
+  if (!isAboutWorld()) return state.answers.findLast((a) => ["placement", "preference"].includes(a.kind) && a.state === "undone" && !isGiven(a));
   const said = Math.max(0, ...state.answers.filter((a) => isActive(a) && !again.has(a.id)).map((a) => a.revision ?? Infinity));
   const undone = state.answers.filter((a) => GIVEN.includes(a.kind) && a.state === "undone" && !again.has(a.id) && (a.undo?.revision ?? 0) > said);
   return undone.sort((a, b) => b.undo.revision - a.undo.revision)[0];
@@ -153,7 +164,7 @@ function lastUndone() {
 
 $("submit").addEventListener("click", () => (isTeaching() ? submit() : startCorrecting()));
 $("skip").addEventListener("click", () => respond("skip"));
-$("cant-tell").addEventListener("click", () => respond("cant_tell"));
+$("cant-tell").addEventListener("click", () => (isPair() ? compare("cant_tell") : respond("cant_tell")));
 for (const id of ["undo", "ask-undo"]) $(id).addEventListener("click", () => { const answer = lastActive(); if (answer) undo(answer); });
 for (const id of ["redo", "ask-redo"]) $(id).addEventListener("click", () => { const answer = lastUndone(); if (answer) redo(answer); });
 for (const id of ["stop", "ask-stop"]) $(id).addEventListener("click", () => { $("stop-dialog").returnValue = ""; $("stop-dialog").showModal(); });
@@ -201,7 +212,7 @@ function render() {
   renderTable();
   renderAnswer();
   renderProgress();
-  drawAnswers($("answers"), state.answers, state.lesson?.misfits ?? [], { undo, redo, look });
+  drawAnswers($("answers"), state.answers, state.lesson?.misfits ?? [], { undo, redo, look, title: (answer) => TABLE.compared[answer.kind === "preference" && answer.said] });
   const active = state.answers.filter((a) => a.state === "accepted").length;
   text("history-count", state.answers.length ? ANSWERS.count(active, state.answers.length) : "");
   $("no-answers").hidden = state.answers.length > 0;
@@ -247,10 +258,11 @@ function renderTable() {
   table.show({
     scene: shown,
     spots: carry.spots(),
+    options: own.look || !showsQuestion() ? [] : pair.options(state.question),
     plan: guessed,
     heat: own.heat && reveal(),
     reveal: reveal(),
-    movable: !own.look && (isTeaching() || (showsQuestion() && own.at !== null && !isAsking())),
+    movable: !own.look && !isPair() && (isTeaching() || (showsQuestion() && own.at !== null && !isAsking())),
     locked: !isTeaching(),
     marks: own.look ? [{ x: own.look.x_m, y: own.look.y_m, label: TABLE.mark(own.look.revision) }] : [],
     guessLabel: showsQuestion() || own.correcting ? TABLE.guess : TABLE.place,
@@ -286,14 +298,18 @@ function renderAnswer() {
   renderReadout();
   const shown = scene(), map = plan(), name = shown?.target.label ?? QUESTION.it, teaching = isTeaching(), asking = isAsking();
   const blocked = teaching && own.at && shown ? obstruction(shown, own.at) : null;
-  const submittable = teaching && own.at && !blocked, idle = !teaching && !showsQuestion() && Boolean(state.scene) && lessonState() !== "waiting" && lessonState() !== "asking";
+  const wantsOne = isPair(), submittable = teaching && (wantsOne ? pair.better !== null : own.at && !blocked), idle = !teaching && !showsQuestion() && Boolean(state.scene) && lessonState() !== "waiting" && lessonState() !== "asking";
   $("submit").disabled = !(submittable || idle);
-  text("submit-text", idle ? TABLE.another : TABLE.submit(name));
+  text("submit-text", idle ? TABLE.another : wantsOne ? TABLE.choose : TABLE.submit(name));
+  pair.render(state.question, { isShown: showsQuestion(), isOpen: asking });
+  if (!isAboutWorld()) { text("skip-link", wantsOne ? BAR.skipToAnswer : BAR.skip); $("skip-link").href = wantsOne ? "#pair" : "#target"; }
+  keepFocus(wantsOne, asking);
   $("submit").querySelector("kbd").hidden = idle;
-  const far = submittable && isUnreachable(map, shown, own.at);
+  const far = submittable && !wantsOne && isUnreachable(map, shown, own.at);
   text("hint", own.problem ? own.problem
     : blocked ? TABLE.notThere(blocked)
     : far ? TABLE.far
+    : wantsOne ? (asking && !submittable ? TABLE.todoPair : "")
     : teaching && !own.at ? TABLE.drag
     : submittable ? TABLE.keys : "");
   $("hint").dataset.tone = own.problem || blocked ? "bad" : far ? "warn" : "";
@@ -313,11 +329,22 @@ function renderAnswer() {
   $("acknowledgement").dataset.state = sent ? (isUndo ? sent.undo.state : sent.state) : own.sent ? "sending" : "";
 }
 
+/** Who answers by keyboard goes on by keyboard: what a new question is answered with has the focus. */
+function keepFocus(wantsOne, asking) {
+  const key = asking ? `${state.question.id} ${wantsOne}` : null, at = document.activeElement;
+  if (key === null || key === own.focused) return;
+  const isFree = at === document.body || at === null || (at.closest(".answer, #table") && !at.closest("#ask"));
+  own.focused = key;
+  if (document.documentElement.dataset.input !== "keydown" || !isFree || isAboutWorld()) return;
+  (wantsOne ? $("pair").querySelector("input") : table.target).focus({ preventScroll: true });
+}
+
 function renderGuess(map, shown, name) {
   const guess = map?.map_placement;
   let words = "", distance = null;
   if (showsQuestion() || own.correcting) {
-    if (!own.revealed) words = TABLE.hidden(name);
+    if (isPair()) words = "";
+    else if (!own.revealed) words = TABLE.hidden(name);
     else if (guess && own.at) {
       distance = Math.hypot(guess.x_m - own.at.x, guess.y_m - own.at.y);
       words = TABLE.apart(cm(distance));

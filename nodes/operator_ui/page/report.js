@@ -9,7 +9,7 @@ import { asARule, number, percent, worstCase } from "./risk.js";
 import { ROAD_KEY, drawRoad } from "./road.js";
 import { inForce, lessonStart } from "./session.js";
 import { drawTrend } from "./trend.js";
-import { ANSWERS, CAUTION, RECEIPT, REPORT, WORDS, WORLD } from "./words.js";
+import { ANSWERS, CAUTION, RECEIPT, REPORT, TABLE, WORDS, WORLD } from "./words.js";
 
 /** The node shows no more answers than these, the newest; as MAX_ANSWERS in protocol.rs. */
 const MAX_ANSWERS = 200;
@@ -134,14 +134,16 @@ function progress(of) {
 
 function question(of, answer) {
   const id = answer.query_id ? make("span", "report-id", short(answer.query_id)) : null, isOfLesson = ["stop", "pause", "start", "finish", "new_lesson"].includes(answer.kind);
-  const words = answer.kind === "placement" ? REPORT.where(answer.scene?.target.label)
+  const words = answer.kind === "preference" && !of.isAboutWorld ? TABLE.whichPlace.replace("?", "")
+    : answer.kind === "placement" ? REPORT.where(answer.scene?.target.label)
     : answer.kind === "actions" && answer.step && of.world && answer.step[0] < of.world.n_states ? REPORT.askedThere(of.world, answer.step[0]) : REPORT.asked[answer.kind] ?? "";
   return make("span", "", words || (isOfLesson ? "–" : answer.query_id ? REPORT.unnamed.question : REPORT.unnamed.nothing), answer.query_id ? " " : isOfLesson ? null : ` ${REPORT.unasked}`, id);
 }
 
 function told(of, answer) {
   if (answer.kind === "placement") return answer.x_m === null || answer.y_m === null ? REPORT.unnamed.place : place(answer);
-  return (of.world ? WORDS.answer(of.world, answer) : undefined) ?? (answer.n !== null ? ANSWERS.counted[answer.kind]?.(answer.n) : undefined) ?? REPORT.kinds[answer.kind] ?? answer.kind;
+  const ofPlaces = answer.kind === "preference" && !of.isAboutWorld ? TABLE.compared[answer.said] : undefined;
+  return ofPlaces ?? (of.world ? WORDS.answer(of.world, answer) : undefined) ?? (answer.n !== null ? ANSWERS.counted[answer.kind]?.(answer.n) : undefined) ?? REPORT.kinds[answer.kind] ?? answer.kind;
 }
 
 function answers(of) {

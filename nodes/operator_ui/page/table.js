@@ -3,6 +3,7 @@
 import { boundingRadius, isUnreachable, nearestFree, obstruction, shapeWords } from "./geometry.js";
 import { rewardPicture, shadePicture } from "./maps.js";
 import { drawBoard, drawGuess, drawObjects, drawSpots, element, footprint, sideways } from "./drawing.js";
+import { drawOptions } from "./pair.js";
 import { TABLE } from "./words.js";
 
 const STEP_M = 0.005;
@@ -16,8 +17,8 @@ export class TableView {
     this.svg = svg;
     this.on = on;
     this.at = null;
-    this.view = { scene: null, plan: null, heat: false, reveal: false, movable: false, locked: false, marks: [], spots: [] };
-    this.layers = Object.fromEntries(["board", "objects", "guess", "spots"].map((name) => [name, svg.appendChild(element("g", { class: name }))]));
+    this.view = { scene: null, plan: null, heat: false, reveal: false, movable: false, locked: false, marks: [], spots: [], options: [] };
+    this.layers = Object.fromEntries(["board", "objects", "guess", "spots", "options"].map((name) => [name, svg.appendChild(element("g", { class: name }))]));
     this.target = svg.appendChild(element("g", { id: "target", "data-testid": "target", class: "target", tabindex: "0", role: "application" }));
     this.target.addEventListener("pointerdown", (event) => this.grab(event));
     this.target.addEventListener("pointermove", (event) => this.drag(event));
@@ -80,6 +81,7 @@ export class TableView {
     drawObjects(this.layers.objects, this, scene, Boolean(this.heatUrl));
     drawGuess(this.layers.guess, this, scene, reveal ? plan : null, marks, movable ? this.at : null);
     drawSpots(this.layers.spots, this, this.view.spots);
+    drawOptions(this.layers.options, this, scene, this.view.options);
     this.drawTarget(true);
   }
 

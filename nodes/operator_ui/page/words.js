@@ -211,6 +211,8 @@ export const TABLE = {
   heat: "Reward map",
   key: "Brown hatching: occupied. Grey hatching: out of the arm's reach.",
   readout: (at, blocked, far) => `${cm1(at.x)} cm from the left, ${cm1(at.y)} cm from the robot's edge${blocked ? ` · ${blocked}` : far ? " · out of the arm's reach" : ""}`,
+  whichPlace: "Which of the two places is better?", sayEqual: "About equal", choose: "That is my choice", neither: "Neither: I show where", backToPair: "Back to A and B", todoPair: "Choose A or B, here or on the table.",
+  better: (letter) => `${letter} is better`, at: ({ x_m, y_m }) => `${cm1(x_m)} cm from the left, ${cm1(y_m)} cm from the robot's edge`, option: (letter, name) => `Place ${letter} for the ${name}`, compared: { ranked: "Chose the better of two places", equal: "Two places are about equal", cant_tell: "Can't tell which of two places is better" },
   placeIt: "Place it here",
   submit: (name) => `Place the ${name} here`,
   another: "Show another placement",

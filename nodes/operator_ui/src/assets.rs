@@ -17,12 +17,13 @@ const JS: &str = "text/javascript; charset=utf-8";
 const SVG: &str = "image/svg+xml";
 
 /// Every file.
-pub(crate) const ASSETS: [Asset; 32] = [
+pub(crate) const ASSETS: [Asset; 33] = [
     Asset { path: "/", media_type: HTML, body: include_str!("../page/index.html") },
     Asset { path: "/style.css", media_type: CSS, body: include_str!("../page/style.css") },
     Asset { path: "/icon.svg", media_type: SVG, body: include_str!("../page/icon.svg") },
     Asset { path: "/main.js", media_type: JS, body: include_str!("../page/main.js") },
     Asset { path: "/link.js", media_type: JS, body: include_str!("../page/link.js") },
+    Asset { path: "/pair.js", media_type: JS, body: include_str!("../page/pair.js") },
     Asset { path: "/table.js", media_type: JS, body: include_str!("../page/table.js") },
     Asset { path: "/drawing.js", media_type: JS, body: include_str!("../page/drawing.js") },
     Asset { path: "/geometry.js", media_type: JS, body: include_str!("../page/geometry.js") },

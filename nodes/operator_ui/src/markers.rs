@@ -2,6 +2,7 @@
 
 use crate::protocol::{BoundsView, ObjectView, PlanView, SceneView};
 use apprentice_msgs::geometry_msgs::Vector3;
+use apprentice_msgs::msg::PlacementQuery;
 use apprentice_msgs::visualization_msgs::{Marker, MarkerArray};
 use exchange::{broken_text, colour, delete_all_markers, marker, pose_at, text_marker};
 
@@ -10,16 +11,17 @@ const OBJECT: [f32; 4] = [0.93, 0.92, 0.89, 1.0];
 /// What is to be placed.
 pub(crate) const TARGET: [f32; 4] = [0.85, 0.46, 0.17, 0.9];
 const GUESS: [f32; 4] = [0.42, 0.31, 0.70, 0.55];
+const OFFERED: [f32; 4] = [0.85, 0.46, 0.17, 0.45];
 const TABLE_THICKNESS_M: f64 = 0.02;
 const TEXT_M: f64 = 0.035;
 /// Longer lines are broken, characters.
 const LINE: usize = 56;
 
-/// Table, objects, the robot's guess, and the bound in words; beside the table the target, or while a question is open its words:
-/// then the target is an interactive marker. The stamp is zero, which means "the newest transform" to those who draw.
+/// Table, objects, the robot's guess, and the bound in words; beside the table the target, or while a question is open its words and
+/// the places that it offers: then the target is an interactive marker. The stamp is zero, which means "the newest transform" to those who draw.
 pub(crate) fn markers(
     scene: &SceneView,
-    asked: Option<&str>,
+    asked: Option<&PlacementQuery>,
     plan: Option<&PlanView>,
     bounds: Option<&BoundsView>,
 ) -> MarkerArray {
@@ -40,7 +42,15 @@ pub(crate) fn markers(
     let (beside_x, beside_y) = (scene.width_m + target.size_x_m, 0.5 * scene.depth_m);
     match asked {
         // Above the bound.
-        Some(words) => list.push(question(frame, words, [0.5 * scene.width_m, scene.depth_m + 3.0 * TEXT_M])),
+        Some(asked) => {
+            list.push(question(frame, &asked.reason, [0.5 * scene.width_m, scene.depth_m + 3.0 * TEXT_M]));
+            // Those who cannot press handles see them, too.
+            for ((id, letter), option) in (0..).zip(["A", "B"]).zip(&asked.options) {
+                let (x_m, y_m) = (option.placement.x, option.placement.y);
+                list.push(solid(frame, "options", id, target, x_m, y_m, OFFERED));
+                list.push(label(frame, "option letters", id, letter, x_m, y_m, target.size_z_m + TEXT_M));
+            }
+        }
         None => {
             list.push(solid(frame, "target", 0, target, beside_x, beside_y, TARGET));
             list.push(label(frame, "target", 1, &target.label, beside_x, beside_y, target.size_z_m + TEXT_M));

@@ -18,7 +18,7 @@ use crate::rviz::{Asked, Handles, map};
 use crate::settings::Settings;
 use crate::tabular::{News, Tabular};
 use crate::view::{
-    bounds_view, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point,
+    bounds_view, check_options, finite, lesson_view, plan_view, posterior_view, question_view, scene_view, trend_point,
 };
 use apprentice_msgs::msg::{LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, TableScene};
 use apprentice_msgs::visualization_msgs::{InteractiveMarkerFeedback, MarkerArray};
@@ -272,7 +272,7 @@ impl OperatorUi {
     }
 
     fn take_query(&mut self, message: PlacementQuery, out: &mut Vec<Output>) -> bool {
-        match scene_view(&message.scene) {
+        match scene_view(&message.scene).map_err(|error| error.to_string()).and_then(|view| check_options(&message, view)) {
             // The copies that are sent again may differ in their stamps only; NaN differs even from itself.
             Ok(view) => {
                 let before = self.query.as_ref().map(|(m, v)| question_view(m, v.clone(), true));
@@ -444,7 +444,7 @@ impl OperatorUi {
         let context = self.context();
         if let Some((query, view)) = self.query.as_ref().filter(|_| context.is_open()) {
             let guess = self.guess.as_ref().filter(|guess| guess.query_id == query.id);
-            return Some(markers(view, Some(&query.reason), guess, self.bounds.as_ref()));
+            return Some(markers(view, Some(query), guess, self.bounds.as_ref()));
         }
         if let Some((_, view)) = &self.scene {
             return Some(markers(view, None, self.plan.as_ref(), self.bounds.as_ref()));

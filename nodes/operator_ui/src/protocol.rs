@@ -210,7 +210,7 @@ pub enum FromPage {
         /// How sure the person is.
         confidence: Confidence,
     },
-    /// Which of the two ways of the open question is better.
+    /// Which of the two ways or places of the open question is better.
     Compare {
         /// Of the answer.
         id: String,
@@ -280,11 +280,11 @@ pub struct Segment {
     pub good: bool,
 }
 
-/// Which of two ways.
+/// Which of two ways or places.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Better {
-    /// The first, shown on the left.
+    /// The first: on the left, or called A.
     First,
     /// The second.
     Second,

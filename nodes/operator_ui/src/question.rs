@@ -3,7 +3,7 @@
 use crate::answers::Answers;
 use crate::evidence::Evidence;
 use crate::protocol::{Confidence, FromPage, Kind};
-use crate::world_answers::{acted, asked_again, compared, marked};
+use crate::world_answers::{acted, asked_again, compared, compared_places, marked};
 use apprentice_msgs::geometry_msgs::Point;
 use apprentice_msgs::msg::{
     LessonStatus, PlacementDemonstration, PlacementQuery, QueryResponse, Retraction, TableScene, WorldQuery,
@@ -104,7 +104,10 @@ impl Context<'_> {
                 evidence.again(Header { stamp: *now, frame_id: String::new() }, id, query_id, source)
             }
             FromPage::Compare { id, query_id, better, confidence } => {
-                let evidence = compared(self.world_open(&query_id)?, better, number(confidence))?;
+                let evidence = match self.open(&query_id) {
+                    Ok(query) => compared_places(query, better, number(confidence))?,
+                    Err(_) => compared(self.world_open(&query_id)?, better, number(confidence))?,
+                };
                 evidence.again(Header { stamp: *now, frame_id: String::new() }, id, query_id, source)
             }
             FromPage::Respond { id, query_id, kind, reason } => {

@@ -33,7 +33,7 @@ const TOUCH_M: f64 = 1e-4;
 pub(crate) enum Asked<'a> {
     /// Nothing.
     Nothing,
-    /// Where something belongs.
+    /// Where something belongs, or in which of two places it is better.
     Table(&'a PlacementQuery, &'a SceneView),
     /// Something about a world, drawn in that frame.
     World(&'a WorldQuery, &'a WorldView, &'a str),
@@ -77,7 +77,7 @@ impl Handles {
         }
         let wanted = match asked {
             Asked::Nothing => Vec::new(),
-            Asked::Table(query, scene) => table::handles(&query.id, scene, &self.draft),
+            Asked::Table(query, scene) => table::handles(query, scene, &self.draft),
             Asked::World(query, world, frame) => world::handles(query, world, frame, &self.draft),
         };
         let known = |of: &[InteractiveMarker], name: &str| of.iter().position(|marker| marker.name == name);
@@ -139,12 +139,16 @@ impl Handles {
         let (id, query_id) = (id.to_owned(), asked.id().to_owned());
         let respond =
             |kind| FromPage::Respond { id: id.clone(), query_id: query_id.clone(), kind, reason: String::new() };
-        let is_comparison = matches!(asked, Asked::World(query, ..) if query.kind == WorldQuery::COMPARISON);
+        let is_comparison = match asked {
+            Asked::Nothing => false,
+            Asked::Table(query, _) => query.options.len() == 2,
+            Asked::World(query, ..) => query.kind == WorldQuery::COMPARISON,
+        };
         match (what, feedback.menu_entry_id) {
             ("skip", _) => return Ok(Some(respond(Kind::Skip))),
             ("stop", _) => return Ok(Some(respond(Kind::Stop))),
             ("target", table::SKIP) if is_menu => return Ok(Some(respond(Kind::Skip))),
-            ("target", table::CANT_TELL) if is_menu => return Ok(Some(respond(Kind::CantTell))),
+            ("target", table::CANT_TELL) if is_menu && !is_comparison => return Ok(Some(respond(Kind::CantTell))),
             ("cant_tell", _) if !is_comparison => return Ok(Some(respond(Kind::CantTell))),
             ("all_good", _) => {
                 self.draft.marks.fill(Some(true));
@@ -156,9 +160,11 @@ impl Handles {
             self.draft.press(step as usize);
             return Ok(None);
         }
-        let Some(confidence) = confidence else { return Ok(None) };
+        let says_nothing = is_menu && what == "target" && feedback.menu_entry_id == table::CANT_TELL;
+        let Some(confidence) = confidence.or(says_nothing.then_some(Confidence::Sure)) else { return Ok(None) };
         let better = |better| FromPage::Compare { id: id.clone(), query_id: query_id.clone(), better, confidence };
         Ok(Some(match what {
+            "target" if says_nothing => better(Better::CantTell),
             "target" | "place" => {
                 let at_m = self.draft.at_m.ok_or("first move it to where it belongs")?;
                 if self.draft.is_blocked {
@@ -166,8 +172,8 @@ impl Handles {
                 }
                 FromPage::Place { id, query_id, x_m: at_m[0], y_m: at_m[1], confidence }
             }
-            "first" => better(Better::First),
-            "second" => better(Better::Second),
+            "first" | "first tile" => better(Better::First),
+            "second" | "second tile" => better(Better::Second),
             "equal" => better(Better::Equal),
             "cant_tell" => better(Better::CantTell),
             "send" => {

@@ -57,12 +57,31 @@ pub(crate) fn object_view(object: &Object) -> ObjectView {
     }
 }
 
+/// The table of a question that offers nothing, or two places on it.
+///
+/// # Errors
+/// In a sentence, when it offers anything else.
+pub(crate) fn check_options(message: &PlacementQuery, scene: SceneView) -> Result<SceneView, String> {
+    if ![0, 2].contains(&message.options.len()) {
+        return Err(format!("it offers {} places; none or two can be shown", message.options.len()));
+    }
+    let is_on = |x: f64, extent_m: f64| (0.0..=extent_m).contains(&x);
+    for option in &message.options {
+        let at = &option.placement;
+        if !is_on(at.x, scene.width_m) || !is_on(at.y, scene.depth_m) {
+            return Err(format!("it offers ({}, {}) m, which is off the table", at.x, at.y));
+        }
+    }
+    Ok(scene)
+}
+
 /// A question; whether it is open is for the caller to say.
 pub(crate) fn question_view(message: &PlacementQuery, scene: SceneView, open: bool) -> QuestionView {
     QuestionView {
         id: message.id.clone(),
         revision: message.revision,
         scene,
+        options: message.options.iter().filter_map(|option| spot(&option.placement)).collect(),
         reason: message.reason.clone(),
         bound_m: finite(message.bound_m),
         epsilon_m: finite(message.epsilon_m),

@@ -1,8 +1,11 @@
-//! From what a page says about a question about a world to evidence. The question was checked against the world when it came.
+//! From what a page says about ways, places, states and steps to evidence. A question about a world was checked against it when it came.
 
 use crate::evidence::Evidence;
 use crate::protocol::{Better, Segment};
-use apprentice_msgs::msg::{ActionDemonstration, CritiqueSegment, SegmentCritique, TrajectoryPreference, WorldQuery};
+use apprentice_msgs::msg::{
+    ActionDemonstration, CritiqueSegment, FeatureTrajectory, PlacementQuery, SegmentCritique, TrajectoryPreference,
+    WorldQuery,
+};
 use exchange::feature_trajectory;
 
 /// What to do in the state that is asked about; whether there is such an action is for the posterior to say.
@@ -54,12 +57,34 @@ pub(crate) fn marked(query: &WorldQuery, segments: &[Segment], confidence: u8) -
 
 /// Which of the two ways is better: worst first.
 pub(crate) fn compared(query: &WorldQuery, better: Better, confidence: u8) -> Result<Evidence, String> {
-    let (WorldQuery::COMPARISON, [first, second]) = (query.kind, query.trajectories.as_slice()) else {
-        return Err(format!("question '{}' does not ask which is better", query.id));
-    };
-    let (worse, best) = if better == Better::First { (second, first) } else { (first, second) };
-    Ok(Evidence::Comparison(Box::new(TrajectoryPreference {
-        trajectories: vec![feature_trajectory(worse), feature_trajectory(best)],
+    match (query.kind, query.trajectories.as_slice()) {
+        (WorldQuery::COMPARISON, [first, second]) => {
+            Ok(preferred([first, second].map(feature_trajectory), better, confidence))
+        }
+        _ => Err(does_not_compare(&query.id)),
+    }
+}
+
+/// Which of the two places is better: worst first.
+pub(crate) fn compared_places(query: &PlacementQuery, better: Better, confidence: u8) -> Result<Evidence, String> {
+    match query.options.as_slice() {
+        [first, second] => {
+            Ok(preferred([first, second].map(|option| option.trajectory.clone()), better, confidence))
+        }
+        _ => Err(does_not_compare(&query.id)),
+    }
+}
+
+fn does_not_compare(query_id: &str) -> String {
+    format!("question '{query_id}' does not ask which is better")
+}
+
+fn preferred(mut of: [FeatureTrajectory; 2], better: Better, confidence: u8) -> Evidence {
+    if better == Better::First {
+        of.reverse();
+    }
+    Evidence::Comparison(Box::new(TrajectoryPreference {
+        trajectories: of.into(),
         answer: match better {
             Better::First | Better::Second => TrajectoryPreference::RANKED,
             Better::Equal => TrajectoryPreference::EQUAL,
@@ -67,7 +92,7 @@ pub(crate) fn compared(query: &WorldQuery, better: Better, confidence: u8) -> Re
         },
         confidence,
         ..TrajectoryPreference::default()
-    })))
+    }))
 }
 
 /// What was taken back as an answer to the open question, when that asks the same once more; else as volunteered.

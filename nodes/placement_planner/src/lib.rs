@@ -5,6 +5,7 @@ mod asked;
 mod carrying;
 mod convert;
 mod node;
+mod reaching;
 mod robot;
 mod run;
 mod settings;

@@ -10,7 +10,8 @@ use apprentice_msgs::control_msgs::{FollowJointTrajectory, GripperCommandAction}
 use apprentice_msgs::geometry_msgs::{Pose, PoseStamped};
 use apprentice_msgs::moveit_msgs::PlanningScene;
 use apprentice_msgs::msg::{
-    ArmModel, ArmMotion, ArmPose, LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, TableScene,
+    ArmModel, ArmMotion, ArmPose, LessonStatus, PlacementPlan as PlanMessage, PlacementQuery, Posterior, TableReach,
+    TableScene,
 };
 use apprentice_msgs::sensor_msgs::JointState;
 use apprentice_msgs::tf2_msgs::TFMessage;
@@ -74,6 +75,8 @@ pub enum Output {
     ArmPose(ArmPose),
     /// How it would carry out the plan.
     ArmMotion(Box<ArmMotion>),
+    /// What the arm reaches of the table.
+    Reach(Box<TableReach>),
     /// Something a person should know.
     Warn(String),
 }
@@ -122,6 +125,8 @@ pub struct PlacementPlanner {
     pub(crate) put_down: Option<u64>,
     pub(crate) carrier: Carrier,
     pub(crate) sharing: Sharing,
+    /// As it was told last.
+    pub(crate) reach: Option<Box<TableReach>>,
 }
 
 impl PlacementPlanner {
@@ -155,6 +160,7 @@ impl PlacementPlanner {
             moved: None,
             put_down: None,
             sharing: Sharing::default(),
+            reach: None,
         }
     }
 
@@ -165,6 +171,7 @@ impl PlacementPlanner {
         let mut outputs = self.supervise(now, &event);
         outputs.extend(self.take(now, event));
         outputs.extend(self.share(now, &outputs, again));
+        outputs.extend(self.tell_reach(again));
         outputs
     }
 

@@ -4,7 +4,7 @@ use crate::{Deed, Event, Heard, Limb, Output, PlacementPlanner, RobotFiles, Sett
 use apprentice_msgs::action::{PlaceObject, PlaceObjectResult};
 use apprentice_msgs::control_msgs::{FollowJointTrajectory, GripperCommandAction};
 use apprentice_msgs::moveit_msgs::PlanningScene;
-use apprentice_msgs::msg::{ArmModel, ArmMotion, ArmPose, Carrying, PlacementPlan};
+use apprentice_msgs::msg::{ArmModel, ArmMotion, ArmPose, Carrying, PlacementPlan, TableReach};
 use apprentice_msgs::std_msgs;
 use apprentice_msgs::tf2_msgs::TFMessage;
 use apprentice_msgs::trajectory_msgs::JointTrajectory;
@@ -29,6 +29,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
     let arm_model = bus.publisher::<ArmModel>("arm_model", Qos::State)?;
     let arm_pose = bus.publisher::<ArmPose>("arm_pose", Qos::Stream)?;
     let arm_motion = bus.publisher::<ArmMotion>("arm_motion", Qos::State)?;
+    let reach = bus.publisher::<TableReach>("reach", Qos::State)?;
     let carrying = bus.publisher::<Carrying>("carrying", Qos::State)?;
     bus.subscribe("posterior", Qos::State, |message| Event::Posterior(Box::new(message)))?;
     bus.subscribe("query", Qos::State, |message| Event::Query(Box::new(message)))?;
@@ -115,6 +116,7 @@ pub fn run(graph: &Graph, arguments: &Arguments) -> Result<(), NodeError> {
                 Output::ArmModel(message) => arm_model.publish(&message)?,
                 Output::ArmPose(message) => arm_pose.publish(&message)?,
                 Output::ArmMotion(message) => arm_motion.publish(&message)?,
+                Output::Reach(message) => reach.publish(&message)?,
                 Output::Warn(text) => log::warn!("{text}"),
             }
         }

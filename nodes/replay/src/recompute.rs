@@ -5,7 +5,7 @@ use active_query::ActiveQuery;
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
     Candidates, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, PolicyBounds,
-    PolicySet, Posterior, PosteriorPreview,
+    PolicySet, Posterior, PosteriorPreview, TableReach,
 };
 use bus::NodeSettings;
 use exchange::{World, is_about_a_table, world_from_message};
@@ -84,9 +84,15 @@ pub fn recompute(
         }
         let table = if is_about_a_table(&posterior) {
             if tables.is_none() {
-                tables = Some((ActiveQuery::new(settings(recording)?), PerformanceBoundsNode::new(bounds.clone())));
+                let mut query = ActiveQuery::new(settings(recording)?);
+                // It reads as much of the log as a revision takes in.
+                query.step(Time::default(), active_query::Event::Evidence(Box::new(recording.evidence.clone())));
+                tables = Some((query, PerformanceBoundsNode::new(bounds.clone())));
             }
             let (query, bounds) = tables.as_mut().expect("they were just put there");
+            if let Some(reach) = recorded_reach(recording, &posterior) {
+                query.step(Time::default(), active_query::Event::Reach(Box::new(reach.clone())));
+            }
             Some(table_round(&posterior, query, bounds).map_err(wrong)?)
         } else {
             None
@@ -141,6 +147,17 @@ fn recorded_previews(recording: &Recording, base_revision: u64) -> impl Iterator
     all.filter(move |preview| preview.base_revision == base_revision)
 }
 
+/// What the arm was known to reach when tables were imagined for a revision: of the robot that the candidates name. It is computed
+/// anew, too ([`Lesson::reach_again`]).
+fn recorded_reach<'a>(recording: &'a Recording, posterior: &Posterior) -> Option<&'a TableReach> {
+    let (candidates, _) = recording.candidates.get(&posterior.revision)?.first()?;
+    let is_of = |reach: &&TableReach| {
+        let task = &posterior.task;
+        (reach.width_m, reach.depth_m, &reach.target_id) == (task.width_m, task.depth_m, &task.target.id)
+    };
+    recording.reach.iter().filter(is_of).find(|reach| reach.robot_hash == candidates.robot_hash)
+}
+
 fn table_round(
     posterior: &Posterior,
     query: &mut ActiveQuery,
@@ -155,7 +172,8 @@ fn table_round(
             _ => {}
         }
     }
-    let candidates = candidates.ok_or("active_query gave no candidates")?;
+    let candidates =
+        candidates.ok_or("active_query gave no candidates; what the arm reaches may be missing from the bag")?;
     let mut judged = None;
     bounds.step(now, performance_bounds::Event::Posterior(Box::new(posterior.clone())));
     for output in bounds.step(now, performance_bounds::Event::Candidates(Box::new(candidates.clone()))) {
@@ -196,16 +214,9 @@ impl Lesson {
         let (Some(table), Some(settings)) = (&round.table, &self.planner) else {
             return Err(wrong("a plan for a table that the lesson is not about".into()));
         };
-        if !self.planners.contains_key(&recorded.robot_hash) {
-            let files = RobotFiles::open(settings).map_err(|error| wrong(error.to_string()))?;
-            let mut planner = PlacementPlanner::with_files(settings.clone(), files);
-            if !self.takes(&mut planner, &recorded.robot_hash) {
-                let reason = "its robot description is not in the bag, or its meshes or SRDF are not what they were";
-                return Err(wrong(reason.into()));
-            }
-            self.planners.insert(recorded.robot_hash.clone(), planner);
-        }
-        let planner = self.planners.get_mut(&recorded.robot_hash).expect("it was just put there");
+        let settings = settings.clone();
+        let planner = planner_of(&mut self.planners, &self.robots, &self.semantics, &settings, &recorded.robot_hash);
+        let planner = planner.map_err(wrong)?;
         let request = Request {
             posterior: &round.posterior,
             query_id: &recorded.query_id,
@@ -219,19 +230,17 @@ impl Lesson {
         planner.plan(&request).map_err(wrong)
     }
 
-    /// Gives a planner the robot of a hash: a description with or without one of the recorded SRDFs.
-    fn takes(&self, planner: &mut PlacementPlanner, hash: &str) -> bool {
-        if hash.is_empty() {
-            return true;
+    /// What an arm reaches of the lesson's table computed anew; `None` when it is of another table.
+    pub fn reach_again(&mut self, recorded: &TableReach) -> Result<Option<TableReach>, ReplayError> {
+        let of = |round: &Round| (round.table.is_some()).then(|| round.posterior.task.clone());
+        let Some(task) = self.rounds.iter().find_map(of) else { return Ok(None) };
+        let Some(settings) = self.planner.clone() else { return Ok(None) };
+        if (recorded.width_m, recorded.depth_m, &recorded.target_id) != (task.width_m, task.depth_m, &task.target.id) {
+            return Ok(None);
         }
-        // Most are named by their text alone.
-        let first = self.robots.get(hash).into_iter();
-        first.chain(self.robots.values()).any(|urdf| {
-            let with = self.semantics.iter().map(|text| Some(text.as_str()));
-            std::iter::once(None)
-                .chain(with)
-                .any(|semantics| planner.set_robot(urdf, semantics).is_ok() && planner.robot_hash() == hash)
-        })
+        let wrong = |reason: String| ReplayError::Compute { revision: 0, reason };
+        let planner = planner_of(&mut self.planners, &self.robots, &self.semantics, &settings, &recorded.robot_hash);
+        planner.map_err(wrong)?.reach(&task).map(Some).map_err(wrong)
     }
 
     /// Recorded bounds on policies computed anew, from the set that they judge.
@@ -247,6 +256,44 @@ impl Lesson {
         }
         judge_policies(&self.bounds, posterior, set, world).map_err(wrong)
     }
+}
+
+/// The planner with the robot of a hash, made once.
+fn planner_of<'a>(
+    planners: &'a mut BTreeMap<String, PlacementPlanner>,
+    robots: &BTreeMap<String, String>,
+    semantics: &BTreeSet<String>,
+    settings: &placement_planner::Settings,
+    hash: &str,
+) -> Result<&'a mut PlacementPlanner, String> {
+    if !planners.contains_key(hash) {
+        let files = RobotFiles::open(settings).map_err(|error| error.to_string())?;
+        let mut planner = PlacementPlanner::with_files(settings.clone(), files);
+        if !takes(&mut planner, robots, semantics, hash) {
+            return Err("its robot description is not in the bag, or its meshes or SRDF are not what they were".into());
+        }
+        planners.insert(hash.to_owned(), planner);
+    }
+    Ok(planners.get_mut(hash).expect("it was just put there"))
+}
+
+/// Gives a planner the robot of a hash: a description with or without one of the recorded SRDFs.
+fn takes(
+    planner: &mut PlacementPlanner,
+    robots: &BTreeMap<String, String>,
+    semantics: &BTreeSet<String>,
+    hash: &str,
+) -> bool {
+    if hash.is_empty() {
+        return true;
+    }
+    // Most are named by their text alone.
+    robots.get(hash).into_iter().chain(robots.values()).any(|urdf| {
+        let with = semantics.iter().map(|text| Some(text.as_str()));
+        std::iter::once(None)
+            .chain(with)
+            .any(|semantics| planner.set_robot(urdf, semantics).is_ok() && planner.robot_hash() == hash)
+    })
 }
 
 fn settings_if_any<S: NodeSettings>(recording: &Recording) -> Result<Option<S>, ReplayError> {

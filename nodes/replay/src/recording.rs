@@ -4,8 +4,8 @@ use crate::ReplayError;
 use active_query::unjudged;
 use apprentice_msgs::msg::{
     Candidates, EvidenceLog, LessonStatus, NodeSettings, PerformanceBounds, PlacementPlan, PlacementQuery,
-    PolicyBounds, PolicyFrontier, PolicySet, Posterior, PosteriorPreview, RiskPreference, RobustPolicy, TabularWorld,
-    WorldQuery,
+    PolicyBounds, PolicyFrontier, PolicySet, Posterior, PosteriorPreview, RiskPreference, RobustPolicy, TableReach,
+    TabularWorld, WorldQuery,
 };
 use apprentice_msgs::{Message, from_cdr, std_msgs, to_cdr};
 use exchange::world_hash;
@@ -41,6 +41,8 @@ pub struct Recording {
     pub candidates: Recorded<Candidates>,
     /// Recorded bounds.
     pub bounds: Recorded<PerformanceBounds>,
+    /// What arms reached of tables, as often as it differs.
+    pub reach: Vec<TableReach>,
     /// Recorded questions.
     pub query: Recorded<PlacementQuery>,
     /// Recorded questions about a world.
@@ -127,6 +129,13 @@ impl Recording {
             RiskPreference::TYPE => {
                 let said: RiskPreference = decode(topic, index, cdr)?;
                 self.preferences.entry((said.number, said.id.clone())).or_insert(said);
+                Ok(())
+            }
+            TableReach::TYPE => {
+                let reach: TableReach = decode(topic, index, cdr)?;
+                if !self.reach.contains(&reach) {
+                    self.reach.push(reach);
+                }
                 Ok(())
             }
             TabularWorld::TYPE => {

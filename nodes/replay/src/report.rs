@@ -88,6 +88,16 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
         .or_else(|| beyond(&recording.query, last))
         .or_else(|| beyond(&recording.world_query, last))
         .or_else(|| beyond(&recording.lesson, last));
+    for recorded in &recording.reach {
+        if mismatch.is_some() {
+            break;
+        }
+        if let Some(recomputed) = lesson.reach_again(recorded)?
+            && recomputed != *recorded
+        {
+            mismatch = Some(found(recorded, &recomputed, 0));
+        }
+    }
     for plans in recording.plan.values() {
         for (recorded, bytes) in plans {
             if mismatch.is_some() {

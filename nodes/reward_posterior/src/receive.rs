@@ -68,7 +68,11 @@ pub(crate) fn judge(settings: &Settings, evidence: &Evidence, open: Open<'_>, pi
                 answers(open, &message.query_id, |query| is_critique(query, message))
             }
             Piece::Preference(message) => {
-                answers(open, &message.query_id, |query| is_comparison(query, message))?;
+                match open.query.filter(|query| query.id == message.query_id) {
+                    Some(query) if is_of_options(query, message) => {}
+                    Some(query) => return refuse(not_the_answer(&query.id)),
+                    None => answers(open, &message.query_id, |query| is_comparison(query, message))?,
+                }
                 compared(evidence, &message.trajectories, |n| check_preference(message, n).map_err(refusal))?;
                 is_expected(settings, message)?;
                 named(evidence)
@@ -287,10 +291,14 @@ fn is_open(open: Open<'_>, id: &str) -> Result<(), Verdict> {
 fn answers(open: Open<'_>, id: &str, is_answer: impl Fn(&WorldQuery) -> bool) -> Result<(), Verdict> {
     match open.world_query.filter(|query| query.id == id) {
         Some(query) if is_answer(query) => Ok(()),
-        Some(_) => refuse(format!("it does not answer what question '{}' asks", shown(id))),
+        Some(_) => refuse(not_the_answer(id)),
         None if open.known.iter().any(|known| known == id) => is_open(open, id),
         None => Ok(()),
     }
+}
+
+fn not_the_answer(query_id: &str) -> String {
+    format!("it does not answer what question '{}' asks", shown(query_id))
 }
 
 fn is_action(query: &WorldQuery, message: &ActionDemonstration) -> bool {
@@ -304,8 +312,16 @@ fn is_critique(query: &WorldQuery, message: &SegmentCritique) -> bool {
 
 /// The two that were shown, in either order.
 fn is_comparison(query: &WorldQuery, message: &TrajectoryPreference) -> bool {
-    let is_shown = |compared: &FeatureTrajectory| {
-        query.trajectories.iter().any(|shown| (&shown.id, &shown.features) == (&compared.id, &compared.features))
-    };
-    query.kind == WorldQuery::COMPARISON && message.trajectories.len() == 2 && message.trajectories.iter().all(is_shown)
+    let shown = query.trajectories.iter().map(|shown| (&shown.id, &shown.features));
+    query.kind == WorldQuery::COMPARISON && are(shown, message)
+}
+
+/// The same of two places.
+fn is_of_options(query: &PlacementQuery, message: &TrajectoryPreference) -> bool {
+    are(query.options.iter().map(|option| (&option.trajectory.id, &option.trajectory.features)), message)
+}
+
+fn are<'a>(shown: impl Iterator<Item = (&'a String, &'a Vec<f64>)> + Clone, message: &TrajectoryPreference) -> bool {
+    let is_shown = |of: &FeatureTrajectory| shown.clone().any(|shown| shown == (&of.id, &of.features));
+    message.trajectories.len() == 2 && message.trajectories.iter().all(is_shown)
 }

@@ -3,8 +3,8 @@
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
-    EvidenceReceipt, PlacementDemonstration, PlacementQuery, Posterior, QueryResponse, Retraction, SceneObject,
-    TableScene,
+    EvidenceReceipt, FeatureTrajectory, PlacementDemonstration, PlacementOption, PlacementQuery, Posterior, QueryResponse,
+    Retraction, SceneObject, TableScene, TrajectoryPreference,
 };
 use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::to_cdr;
@@ -184,6 +184,47 @@ fn only_the_open_question_is_answered_and_only_once() {
     let mut elsewhere = answer("d2", "q1");
     elsewhere.scene.objects[0].pose.position.x = 0.3;
     assert_eq!(bench.refused(elsewhere), "its scene is not the one that question 'q1' asks about");
+}
+
+#[test]
+fn which_of_two_places_is_better_is_answered_by_comparing_the_two_or_by_showing_a_third() {
+    let option = |name: &str, x: f64| PlacementOption {
+        placement: Point { x, y: 0.9, z: 0.0 },
+        trajectory: FeatureTrajectory { id: format!("q0-{name}"), features: (0..11).map(|i| x + i as f64).collect() },
+    };
+    let query = PlacementQuery { options: vec![option("a", 0.1), option("b", 0.2)], ..asked("q0", 0) };
+    let compared = |id: &str, of: Vec<FeatureTrajectory>| TrajectoryPreference {
+        id: id.into(),
+        query_id: "q0".into(),
+        trajectories: of,
+        answer: TrajectoryPreference::RANKED,
+        ..TrajectoryPreference::default()
+    };
+    let of = |options: &[PlacementOption]| options.iter().map(|option| option.trajectory.clone()).collect::<Vec<_>>();
+    let mut session = Bench::new();
+    session.step(Event::Query(Box::new(query.clone())));
+    let mut send = |message| session.receipt(Event::Preference(Box::new(message)));
+    let mut others = of(&query.options);
+    others[0].features[3] = 7.0;
+    for wrong in [others, of(&[option("a", 0.1), option("c", 0.3)])] {
+        let receipt = send(compared("wrong", wrong));
+        assert_eq!(receipt.outcome, EvidenceReceipt::REFUSED);
+        assert!(receipt.reason.contains("does not answer what question 'q0' asks"), "{}", receipt.reason);
+    }
+    let mut swapped = of(&query.options);
+    swapped.reverse();
+    assert_eq!(send(compared("c1", swapped)).outcome, EvidenceReceipt::ACCEPTED);
+    assert_eq!(send(compared("c2", of(&query.options))).outcome, EvidenceReceipt::REFUSED, "a question is answered once");
+    let posterior = session.posterior();
+    let kinds: Vec<(&str, u64)> = posterior.rationalities.iter().map(|of| (of.kind.as_str(), of.n)).collect();
+    assert!(kinds.contains(&("preferences", 1)) && kinds.contains(&("placements", 0)), "{kinds:?}");
+    // A question that asks where has no two places to compare; who is asked which of two may show a third.
+    session.step(Event::Query(Box::new(PlacementQuery { scene: query.scene.clone(), ..asked("q1", 1) })));
+    let stray = TrajectoryPreference { query_id: "q1".into(), ..compared("c3", of(&query.options)) };
+    assert_eq!(session.receipt(Event::Preference(Box::new(stray))).outcome, EvidenceReceipt::REFUSED);
+    session.step(Event::Query(Box::new(PlacementQuery { id: "q2".into(), revision: 1, ..query })));
+    let third = PlacementDemonstration { query_id: "q2".into(), ..shown("d1", 0.5, 0.5) };
+    assert_eq!(session.show(third).outcome, EvidenceReceipt::ACCEPTED);
 }
 
 #[test]

@@ -113,7 +113,9 @@ impl Classroom {
         let settings = reward_posterior::Settings { seed: signed, preview_draws: 0, ..self.posterior.clone() };
         let mut posterior = RewardPosterior::new(settings);
         let mut bounds = PerformanceBoundsNode::new(self.bounds.clone());
-        let mut query = ActiveQuery::new(active_query::Settings { seed: signed, ..self.query.clone() });
+        // As the dissertation asks: where, never which of two.
+        let asks = active_query::Settings { seed: signed, hold_out_share: 0.0, ..self.query.clone() };
+        let mut query = ActiveQuery::new(asks);
         let tests = test_tables(&self.task, n_tests, seed);
         let now = Time::default();
         posterior.step(now, reward_posterior::Event::Scene(Box::new(scene_to_message(&self.task, now))));

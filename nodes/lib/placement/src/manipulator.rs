@@ -246,6 +246,14 @@ impl Manipulator {
         }
     }
 
+    /// Why it does not stand at the table of a scene.
+    pub(crate) fn not_at(&self, scene: &Scene) -> String {
+        format!(
+            "the robot '{}' has no fixed link '{}', the frame of the table; join one to its base by a fixed joint, or say where the table is",
+            self.robot.name, scene.frame
+        )
+    }
+
     /// The arm at the table of a scene with the target in hand, `None` when no link of the robot is the scene's frame (and the
     /// settings do not say where it is) or that link moves. Objects are left out unless `with_objects`.
     pub(crate) fn at_table(&self, scene: &Scene, with_objects: bool) -> Option<Cell<'_>> {

@@ -129,6 +129,15 @@ impl Planner {
         self.manipulator.as_ref()
     }
 
+    /// Which cells of the bare table the robot can put the target of a scene on.
+    ///
+    /// # Errors
+    /// In a sentence: no robot, or one that stands at no such table.
+    pub fn reach(&mut self, scene: &Scene) -> Result<&ReachMap, String> {
+        let manipulator = self.manipulator.as_ref().ok_or(NO_ROBOT)?;
+        ReachMap::kept(&mut self.reach, manipulator, scene).ok_or_else(|| manipulator.not_at(scene))
+    }
+
     /// Plans for one scene. `joints` are the arm's positions by name. Without those of all joints that move the tool there are
     /// placements, but no trajectory; other joints rest at the position nearest 0 when they are missing.
     ///
@@ -175,22 +184,16 @@ impl Planner {
         let Some(manipulator) = &self.manipulator else {
             task.choose(&mut plan, None);
             plan.outcome = PlanOutcome::NoRobot;
-            plan.reason = "no robot description has been received".into();
+            plan.reason = NO_ROBOT.into();
             return plan;
         };
         let Some(cell) = manipulator.at_table(scene, true) else {
             task.choose(&mut plan, None);
             plan.outcome = PlanOutcome::NoRobot;
-            plan.reason = format!(
-                "the robot '{}' has no fixed link '{}', the frame of the table; join one to its base by a fixed joint, or say where the table is",
-                manipulator.robot.name, scene.frame
-            );
+            plan.reason = manipulator.not_at(scene);
             return plan;
         };
-        if self.reach.as_ref().is_none_or(|reach| !reach.fits(scene)) {
-            self.reach = ReachMap::new(manipulator, scene, MAP_SIDE);
-        }
-        let reach = self.reach.as_ref().expect("the robot stands at this table");
+        let reach = ReachMap::kept(&mut self.reach, manipulator, scene).expect("the robot stands at this table");
         let mut current = manipulator.configuration(joints);
         if let (Some(gripper), Ok(grasp)) = (manipulator.gripper(), &cell.grasp) {
             // Whatever the fingers do, they are not wider than open.
@@ -204,6 +207,8 @@ impl Planner {
         plan
     }
 }
+
+const NO_ROBOT: &str = "no robot description has been received";
 
 /// One plan being made.
 struct Task<'a> {

@@ -1,6 +1,7 @@
 //! Which cells of an empty table an arm can put the target on. It depends on the robot, the table and the target's shape
 //! alone, so it is computed once and kept.
 
+use crate::MAP_SIDE;
 use crate::manipulator::{Cell, Manipulator};
 use scene::{Grid, Obstruction, Scene, Shape};
 use std::collections::VecDeque;
@@ -74,6 +75,14 @@ impl ReachMap {
             }
         }
         Some(map)
+    }
+
+    /// The map that was `kept`, when it is of this table and target, or a new one in its place.
+    pub(crate) fn kept<'a>(kept: &'a mut Option<Self>, manipulator: &Manipulator, scene: &Scene) -> Option<&'a Self> {
+        if kept.as_ref().is_none_or(|map| !map.fits(scene)) {
+            *kept = Self::new(manipulator, scene, MAP_SIDE);
+        }
+        kept.as_ref()
     }
 
     /// Whether it holds for a scene: same table and target.

@@ -54,6 +54,8 @@ pub struct QuestionView {
     pub revision: u64,
     /// The table it is about.
     pub scene: SceneView,
+    /// None: where the target belongs; two: in which of these places it is better.
+    pub options: Vec<SpotView>,
     /// Why it is asked.
     pub reason: String,
     /// Bound in this scene.

@@ -1,15 +1,21 @@
-//! A question about a table as handles: the target is moved by hand, and its menu or a tile answers.
+//! A question about a table as handles: the target is moved by hand, and its menu or a tile answers. Of two places each shows the
+//! target there, to be pressed.
 
 use super::draft::Draft;
-use super::tiles::{ANSWER, Column, PASS, entry, handle, how_sure};
+use super::tiles::{ANSWER, Column, PASS, button, entry, handle, how_sure};
+use super::world::WAYS;
 use super::{named, passes};
 use crate::markers::{TARGET, body};
 use crate::protocol::SceneView;
 use apprentice_msgs::geometry_msgs::Quaternion;
+use apprentice_msgs::msg::PlacementQuery;
 use apprentice_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerControl};
+use exchange::text_marker;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 const BLOCKED: [f32; 4] = [0.72, 0.16, 0.14, 0.7];
+/// Names, letters and colours of two places.
+const PLACES: [(&str, &str, [f32; 4]); 2] = [("first", "A", WAYS[0]), ("second", "B", WAYS[1])];
 /// The entry of the menu above the answers.
 const BELONGS: u32 = 10;
 /// An entry of the menu.
@@ -18,19 +24,33 @@ pub(super) const SKIP: u32 = 11;
 pub(super) const CANT_TELL: u32 = 12;
 
 /// The handles.
-pub(super) fn handles(id: &str, scene: &SceneView, draft: &Draft) -> Vec<InteractiveMarker> {
-    let frame = scene.frame_id.as_str();
+pub(super) fn handles(query: &PlacementQuery, scene: &SceneView, draft: &Draft) -> Vec<InteractiveMarker> {
+    let (id, frame) = (query.id.as_str(), scene.frame_id.as_str());
     let mut column = Column { x_m: scene.width_m + scene.target.size_x_m + 0.3, y_m: scene.depth_m };
-    let mut place = column.tile(
-        frame,
-        named(id, "place"),
-        "It belongs here",
-        if draft.at_m.is_some() && !draft.is_blocked { ANSWER } else { PASS },
-    );
-    place.menu_entries = how_sure(0);
-    let mut all = vec![target(id, scene, draft), place];
+    let mut all = Vec::new();
+    if let [first, second] = query.options.as_slice() {
+        for ((name, letter, rgba), option) in PLACES.into_iter().zip([first, second]) {
+            let at = &option.placement;
+            all.push(offered(named(id, name), letter, rgba, scene, [at.x, at.y]));
+            all.push(column.answer(frame, named(id, &format!("{name} tile")), &format!("Place {letter} is better"), rgba));
+        }
+        all.push(column.answer(frame, named(id, "equal"), "About equal", ANSWER));
+    }
+    let is_ready = draft.at_m.is_some() && !draft.is_blocked;
+    let word = if query.options.is_empty() { "It belongs here" } else { "Neither: it belongs here" };
+    all.push(target(id, scene, draft));
+    all.push(column.answer(frame, named(id, "place"), word, if is_ready { ANSWER } else { PASS }));
     all.extend(passes(frame, id, &mut column));
     all
+}
+
+/// The target in one of two places.
+fn offered(name: String, letter: &str, rgba: [f32; 4], scene: &SceneView, [x_m, y_m]: [f64; 2]) -> InteractiveMarker {
+    let target = &scene.target;
+    let body = body("", "place", 0, target, rgba);
+    let letter = text_marker("", "place", 1, letter, [0.0, 0.0, 0.5 * target.size_z_m + 0.04], 0.06);
+    let at_m = [x_m, y_m, 0.5 * target.size_z_m];
+    InteractiveMarker { menu_entries: how_sure(0), ..button(&scene.frame_id, name, at_m, vec![body, letter]) }
 }
 
 /// The thing to be placed: it slides over the table. It waits beside it.

@@ -51,6 +51,11 @@ impl Column {
         letters.color = colour([1.0; 4]);
         button(frame, name, at_m, vec![body, letters])
     }
+
+    /// A tile that gives an answer, whose menu asks how sure that is.
+    pub fn answer(&mut self, frame: &str, name: String, word: &str, rgba: [f32; 4]) -> InteractiveMarker {
+        InteractiveMarker { menu_entries: how_sure(0), ..self.tile(frame, name, word, rgba) }
+    }
 }
 
 /// Something that can be pressed.

@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::layout::{CELL_M, Layout};
-use super::tiles::{ANSWER, Column, PASS, TILE_STEP_M, button, how_sure};
+use super::tiles::{ANSWER, Column, PASS, TILE_STEP_M, button};
 use super::{named, passes};
 use crate::protocol::WorldView;
 use apprentice_msgs::geometry_msgs::Vector3;
@@ -26,9 +26,7 @@ pub(super) fn handles(query: &WorldQuery, world: &WorldView, frame: &str, draft:
     let mut column = Column { x_m: width_m + 0.25, y_m: depth_m.max(5.0 * TILE_STEP_M) };
     let mut all = Vec::new();
     let mut answer = |column: &mut Column, name: String, word: &str, rgba| {
-        let mut tile = column.tile(frame, named(id, &name), word, rgba);
-        tile.menu_entries = how_sure(0);
-        all.push(tile);
+        all.push(column.answer(frame, named(id, &name), word, rgba));
     };
     match query.kind {
         WorldQuery::ACTION => {

@@ -7,8 +7,8 @@ pub mod table;
 
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceReceipt, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound,
-    PlacementDemonstration, PlacementPlan, PlacementQuery, Posterior, Retraction, SceneObject, TableScene,
+    EvidenceLog, EvidenceReceipt, EvidenceRecord, FeatureTrajectory, LessonStatus, PerformanceBounds, PlacementBound,
+    PlacementDemonstration, PlacementOption, PlacementPlan, PlacementQuery, Posterior, Retraction, SceneObject, TableScene,
 };
 use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
@@ -61,6 +61,19 @@ pub fn query(revision: u64) -> PlacementQuery {
         n_candidates: 50,
         ..PlacementQuery::default()
     }
+}
+
+/// A question from a revision that offers two places.
+pub fn pair(revision: u64) -> PlacementQuery {
+    let asked = query(revision);
+    let option = |name: &str, (x, y): (f64, f64)| PlacementOption {
+        placement: Point { x, y, z: 0.0 },
+        trajectory: FeatureTrajectory { id: format!("{}-{name}", asked.id), features: vec![x, y] },
+    };
+    let reason = "Which of the two places is better for the vase with the plate at (0.25, 0.72) m? I drew this question at \
+                  random, to see whether you answer as I expect; now and then I do.";
+    let options = vec![option("a", (0.5, 0.52)), option("b", (0.45, 0.9))];
+    PlacementQuery { reason: reason.into(), options, held_out: true, ..asked }
 }
 
 /// The bound after a revision; none at first.

@@ -73,7 +73,7 @@ pub fn step(node: &mut PlacementPlanner, event: Event) -> Vec<Output> {
     let mut outputs = node.step(Time::default(), event);
     outputs.retain(|output| {
         let is_shown = matches!(output, Output::PlanningScene(_) | Output::Transforms(_) | Output::Markers(_));
-        let is_told = matches!(output, Output::Deed(Deed::Tell(_)));
+        let is_told = matches!(output, Output::Deed(Deed::Tell(_)) | Output::Reach(_));
         !(is_shown || is_told || matches!(output, Output::ArmModel(_) | Output::ArmPose(_) | Output::ArmMotion(_)))
     });
     outputs

@@ -1,0 +1,51 @@
+//! What the arm reaches of a table, for those who ask about it.
+
+use crate::PlacementPlanner;
+use crate::node::Output;
+use apprentice_msgs::msg::{TableReach, TableScene};
+use apprentice_msgs::std_msgs::Header;
+use exchange::scene_from_message;
+
+impl PlacementPlanner {
+    /// Where the arm can put the target on the bare table of a scene: a function of the settings, the robot and the scene.
+    ///
+    /// # Errors
+    /// A scene that cannot be used.
+    pub fn reach(&mut self, message: &TableScene) -> Result<TableReach, String> {
+        let scene = scene_from_message(message).map_err(|error| error.to_string())?;
+        let mut told = TableReach {
+            header: Header { frame_id: message.header.frame_id.clone(), ..Header::default() },
+            robot_hash: self.robot_hash.clone(),
+            target_id: scene.target.id.clone(),
+            width_m: scene.width_m,
+            depth_m: scene.depth_m,
+            ..TableReach::default()
+        };
+        match self.planner.reach(&scene) {
+            Ok(map) => {
+                told.side = u32::try_from(map.side()).unwrap_or(0);
+                told.reachable = (0..map.side().pow(2)).map(|cell| map.configuration(cell).is_some()).collect();
+            }
+            Err(reason) => told.reason = reason,
+        }
+        Ok(told)
+    }
+
+    /// What is told of the table at hand, when that is news or wanted again.
+    pub(crate) fn tell_reach(&mut self, again: bool) -> Option<Output> {
+        let scene = self.scene.take()?;
+        let is_told = self.reach.as_ref().is_some_and(|told| {
+            told.robot_hash == self.robot_hash
+                && (told.width_m, told.depth_m) == (scene.width_m, scene.depth_m)
+                && told.target_id == scene.target.id
+                && told.header.frame_id == scene.header.frame_id
+        });
+        if !is_told && !self.robot_hash.is_empty() {
+            // A scene that cannot be used is told of by those who plan for it.
+            self.reach = self.reach(&scene).ok().map(Box::new);
+        }
+        self.scene = Some(scene);
+        let news = self.reach.clone().filter(|_| again || !is_told);
+        news.map(Output::Reach)
+    }
+}
