@@ -10,6 +10,7 @@ mod hostile_pages;
 mod killed_nodes;
 mod killed_page;
 mod operator_page;
+mod pair;
 mod peer;
 mod python;
 mod rapid_answers;

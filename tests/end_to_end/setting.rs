@@ -35,7 +35,7 @@ const TEA: &str = "/**/setting:
 /**/demonstrator:
   ros__parameters:
     noise: none
-    response_delay_s: 0.3
+    response_delay_s: 0.5
 /**/reward_posterior:
   ros__parameters:
     beta: 100.0
@@ -56,9 +56,10 @@ impl Setting {
         Setting(Process::start(apprentice(fresh_domain(), &arguments), "setting"))
     }
 
-    fn wait_for(&mut self, words: &str) {
+    /// Waits until words are told after others.
+    fn wait_for(&mut self, words: &str, after: &str) {
         let start = now();
-        while !self.0.output().0.contains(words) {
+        while !self.0.output().0.split_once(after).is_some_and(|(_, later)| later.contains(words)) {
             assert!(self.0.ended().is_none() && start.elapsed() < LIMIT, "no '{words}'\n{}", self.0.dump());
             std::thread::sleep(Duration::from_millis(20));
         }
@@ -94,8 +95,7 @@ fn a_table_is_set_one_thing_after_another_and_an_interrupted_setting_goes_on() {
     std::fs::write(&file, TEA).expect("the folder of the tests can be written");
 
     let mut first = Setting::start(&file, &session);
-    first.wait_for("== 2 of 2: tea cup");
-    first.wait_for("answer    1");
+    first.wait_for("question  1", "== 2 of 2: tea cup");
     let token = std::fs::read_to_string(session.join("page-token")).expect("the page has a token");
     first.signal(Signal::INT);
     assert_eq!(first.0.wait(Duration::from_secs(30)).code(), Some(130), "{}", first.0.dump());

@@ -65,7 +65,8 @@ mod tests {
     fn a_cell_is_in_reach_when_it_was_told_to_be_and_nothing_that_is_broken_is_taken() {
         let told = |side, reachable| Reach::new(TableReach { side, reachable, ..TableReach::default() });
         let half = told(2, vec![true, true, true, false]).expect("four cells");
-        for (x, y, is) in [(0.1, 0.1, true), (0.9, 0.1, true), (0.49, 0.9, true), (0.51, 0.9, false), (1.0, 1.0, false)] {
+        for (x, y, is) in [(0.1, 0.1, true), (0.9, 0.1, true), (0.49, 0.9, true), (0.51, 0.9, false), (1.0, 1.0, false)]
+        {
             assert_eq!(half.contains(Point::new(x, y)), is, "{x} {y}");
         }
         assert!(half.contains(Point::new(-3.0, f64::NAN)), "the nearest cell");

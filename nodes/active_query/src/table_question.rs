@@ -83,7 +83,8 @@ pub(crate) fn subject(
         }
     }
     let most_telling = |of: &[usize], kinds, rng: &mut ChaCha8Rng| {
-        let asking = Asking { draws: draws.as_ref().map_err(Clone::clone)?, scenes: tables.scenes, reach: tables.reach };
+        let asking =
+            Asking { draws: draws.as_ref().map_err(Clone::clone)?, scenes: tables.scenes, reach: tables.reach };
         asking.best(of, kinds, rng).map_err(|error| error.to_string())
     };
     // The table of the lesson comes only when no imagined one is worth asking about, and before anything was said.

@@ -1,8 +1,8 @@
 //! A lesson about a table, as the node hears of it: the tables that it imagined, and what was made of the bounds on them.
 
 use crate::node::Output;
-use crate::reach::{Reach, is_in_reach};
 use crate::question_id::{short_hash, table_query_id};
+use crate::reach::{Reach, is_in_reach};
 use crate::settings::Strategy;
 use crate::table_draws::DrawnRewards;
 use crate::table_fit::{fitted, is_judged};
@@ -61,7 +61,8 @@ impl TableLesson {
             return Vec::new();
         }
         let unknown = reach.unknown().filter(|_| settings.only_reachable);
-        let told = unknown.map(|reason| Output::Warn(format!("tables are asked about that may be out of reach: {reason}")));
+        let told =
+            unknown.map(|reason| Output::Warn(format!("tables are asked about that may be out of reach: {reason}")));
         let waited = self.waiting.take_if(|posterior| reach.is_of(&posterior.task));
         self.reach = Some(reach);
         let waited = waited.map(|posterior| self.take_posterior(settings, *posterior));
@@ -75,7 +76,8 @@ impl TableLesson {
 
     /// Imagines tables for a new revision, to be judged.
     pub fn take_posterior(&mut self, settings: &Settings, posterior: Posterior) -> Vec<Output> {
-        let scenes = scene_from_message(&posterior.scene).and_then(|base| Ok((base, scene_from_message(&posterior.task)?)));
+        let scenes =
+            scene_from_message(&posterior.scene).and_then(|base| Ok((base, scene_from_message(&posterior.task)?)));
         let (base, task) = match scenes {
             Ok(scenes) => scenes,
             Err(error) => return vec![Output::Warn(format!("posterior {} is ignored: {error}", posterior.revision))],
@@ -137,7 +139,8 @@ impl TableLesson {
         let judged = judged(bounds);
         let (mut lesson, choice) = table_lesson(settings, posterior, bounds, &judged);
         let (mut query, mut warnings) = (None, Vec::new());
-        let mut warn = |reason: &str| warnings.push(Output::Warn(format!("posterior {}: {reason}", posterior.revision)));
+        let mut warn =
+            |reason: &str| warnings.push(Output::Warn(format!("posterior {}: {reason}", posterior.revision)));
         let draws = DrawnRewards::new(posterior);
         if is_judged(settings, posterior, &lesson) {
             let Some(log) = self.log.as_deref().filter(|log| log.records.len() as u64 >= posterior.revision) else {

@@ -29,12 +29,7 @@ pub(crate) const HELD_OUT: &str =
     "I drew this question at random, to see whether you answer as I expect; now and then I do.";
 
 /// Why a table is asked about.
-pub(crate) fn why(
-    bound: &PlacementBound,
-    bounds: &PerformanceBounds,
-    n_pieces: u64,
-    strategy: Strategy,
-) -> String {
+pub(crate) fn why(bound: &PlacementBound, bounds: &PerformanceBounds, n_pieces: u64, strategy: Strategy) -> String {
     if n_pieces == 0 {
         return "I have not been shown anything yet.".into();
     }

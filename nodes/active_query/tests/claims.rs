@@ -4,8 +4,8 @@ use active_query::{ActiveQuery, Event, Output, Settings, Strategy};
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
-    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior, Rationality,
-    SceneObject, TableScene,
+    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior, Rationality, SceneObject,
+    TableScene,
 };
 use apprentice_msgs::to_cdr;
 use bus::testing::check_parameters;
@@ -227,7 +227,8 @@ fn drawn() -> Posterior {
 #[test]
 fn the_strategy_decides_which_imagined_table_is_asked_about() {
     let asked = |strategy, seed| {
-        let mut node = ActiveQuery::new(Settings { strategy, seed, n_candidates: 12, hold_out_share: 0.0, ..Settings::default() });
+        let mut node =
+            ActiveQuery::new(Settings { strategy, seed, n_candidates: 12, hold_out_share: 0.0, ..Settings::default() });
         let tables = candidates(&mut node, drawn());
         let n = tables.scenes.len();
         // The first has the largest bound; the last is the table of the lesson.

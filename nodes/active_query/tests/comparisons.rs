@@ -4,8 +4,8 @@ use active_query::{ActiveQuery, Event, Output, Settings, Strategy, TableQuestion
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
-    EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior, Rationality,
-    SceneObject, TableReach, TableScene, TrajectoryPreference,
+    EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior,
+    Rationality, SceneObject, TableReach, TableScene, TrajectoryPreference,
 };
 use apprentice_msgs::to_cdr;
 use exchange::scene_from_message;
@@ -77,7 +77,12 @@ fn bounds(revision: u64, n: usize, bound_m: f64) -> PerformanceBounds {
 }
 
 /// What comes of a posterior, the evidence and bounds of `bound_m` on every table.
-fn asked(settings: &Settings, posterior: &Posterior, log: &EvidenceLog, bound_m: f64) -> (Option<PlacementQuery>, LessonStatus) {
+fn asked(
+    settings: &Settings,
+    posterior: &Posterior,
+    log: &EvidenceLog,
+    bound_m: f64,
+) -> (Option<PlacementQuery>, LessonStatus) {
     let mut node = ActiveQuery::new(settings.clone());
     let mut step = |event| node.step(Time::default(), event);
     let tables = match step(Event::Posterior(Box::new(posterior.clone()))).as_slice() {

@@ -5,8 +5,8 @@ use crate::{Kind, Topic};
 use apprentice_msgs::action::PlaceObjectResult;
 use apprentice_msgs::geometry_msgs::Point;
 use apprentice_msgs::msg::{
-    Carrying, EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementPlan,
-    PlacementOption, PlacementQuery, QueryResponse, TableScene, TrajectoryPreference,
+    Carrying, EvidenceLog, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound, PlacementOption,
+    PlacementPlan, PlacementQuery, QueryResponse, TableScene, TrajectoryPreference,
 };
 use exchange::motion_seconds;
 

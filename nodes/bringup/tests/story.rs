@@ -4,8 +4,9 @@ use apprentice_msgs::action::PlaceObjectResult;
 use apprentice_msgs::builtin_interfaces::Duration as TimeFromStart;
 use apprentice_msgs::geometry_msgs::Point;
 use apprentice_msgs::msg::{
-    Carrying, EvidenceLog, EvidenceReceipt, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementBound,
-    PlacementDemonstration, PlacementPlan, PlacementQuery, QueryResponse, Retraction, SceneObject, TableScene,
+    Carrying, EvidenceLog, EvidenceReceipt, EvidenceRecord, FeatureTrajectory, LessonStatus, PerformanceBounds,
+    PlacementBound, PlacementDemonstration, PlacementOption, PlacementPlan, PlacementQuery, QueryResponse, Retraction,
+    SceneObject, TableScene, TrajectoryPreference,
 };
 use apprentice_msgs::trajectory_msgs::JointTrajectoryPoint;
 use bringup::{Circumstances, Kind, Ledger, NodeCount, Percentiles, Placing, SessionRecord, Story, Summary, Topic};
@@ -98,6 +99,42 @@ fn a_question_names_what_moved_by_label_or_by_id_where_labels_repeat_and_is_told
     assert_eq!(told, wanted);
     let last = texts(story.tell(&Topic::Evidence(EvidenceLog::default())));
     assert_eq!(last, ["4   where does the vase belong on the same table?  worst case there 14.2 cm"]);
+}
+
+#[test]
+fn a_question_of_two_places_names_both_and_its_answer_the_better() {
+    let option = |name: &str, x: f64| PlacementOption {
+        placement: Point { x, y: 0.5, z: 0.0 },
+        trajectory: FeatureTrajectory { id: format!("q1-{name}"), features: vec![x] },
+    };
+    let options = vec![option("a", 0.25), option("b", 0.75)];
+    let asked = |story: &mut Story| {
+        story.tell(&Topic::Scene(table()));
+        story.tell(&Topic::Query(PlacementQuery { options: options.clone(), ..query("q1", 0, 0.2) }));
+    };
+    let answered = |answer: u8| {
+        let preference = TrajectoryPreference {
+            source: "operator".to_owned(),
+            trajectories: options.iter().map(|option| option.trajectory.clone()).collect(),
+            answer,
+            ..TrajectoryPreference::default()
+        };
+        let record = EvidenceRecord { sequence: 1, preference: vec![preference], ..EvidenceRecord::default() };
+        Topic::Evidence(EvidenceLog { records: vec![record], ..EvidenceLog::default() })
+    };
+    let question = "1   which is better for the vase on the table as it is, A (0.25, 0.50) m or B (0.75, 0.50) m?  worst case there 20.0 cm";
+    for (answer, words) in [
+        (TrajectoryPreference::RANKED, "1   operator: B (0.75, 0.50) m is better  \u{2192} revision 1"),
+        (TrajectoryPreference::EQUAL, "1   operator: both are about equal  \u{2192} revision 1"),
+        (TrajectoryPreference::CANT_TELL, "1   operator: I can't tell which is better  \u{2192} revision 1"),
+    ] {
+        let mut story = Story::default();
+        asked(&mut story);
+        assert_eq!(texts(story.tell(&answered(answer))), [question, words]);
+    }
+    // Of places that nobody asked about here only the number is known.
+    let told = texts(Story::default().tell(&answered(TrajectoryPreference::RANKED)));
+    assert_eq!(told, ["1   operator: 2 trajectories compared  \u{2192} revision 1"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What a simulated person answers when a question about a world is asked.
 
-use crate::identity::{answer_id, generator};
 use crate::comparing::TIE;
+use crate::identity::{answer_id, generator};
 use crate::{Noise, Output, Teacher};
 use apprentice_msgs::msg::{
     ActionDemonstration, CritiqueSegment, QueryResponse, SegmentCritique, TrajectoryPreference, WorldQuery,

@@ -185,7 +185,12 @@ fn which_of_two_places_is_better_is_said_worst_first_by_the_hidden_reward() {
     let rbf = scene::Rbf::new(&scene);
     let weights = demonstrator::Person::new(&person).weights(&scene);
     let gap = rbf.reward(&weights, Point::new(0.5, 0.5)) - rbf.reward(&weights, Point::new(0.9, 0.1));
-    let noisy = |seed| Settings { seed, noise: demonstrator::Noise::Boltzmann, beta: 3.0_f64.ln() / gap, ..Settings::default() };
+    let noisy = |seed| Settings {
+        seed,
+        noise: demonstrator::Noise::Boltzmann,
+        beta: 3.0_f64.ln() / gap,
+        ..Settings::default()
+    };
     let right = (0..400).filter(|&seed| {
         let outputs = DemonstratorNode::new(&noisy(seed)).step(at(1.0), Event::Query(pair("q1", corner, middle)));
         matches!(outputs.as_slice(), [Output::Preference(said)] if said.trajectories[1].id.ends_with('b'))

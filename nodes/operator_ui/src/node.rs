@@ -272,7 +272,10 @@ impl OperatorUi {
     }
 
     fn take_query(&mut self, message: PlacementQuery, out: &mut Vec<Output>) -> bool {
-        match scene_view(&message.scene).map_err(|error| error.to_string()).and_then(|view| check_options(&message, view)) {
+        match scene_view(&message.scene)
+            .map_err(|error| error.to_string())
+            .and_then(|view| check_options(&message, view))
+        {
             // The copies that are sent again may differ in their stamps only; NaN differs even from itself.
             Ok(view) => {
                 let before = self.query.as_ref().map(|(m, v)| question_view(m, v.clone(), true));

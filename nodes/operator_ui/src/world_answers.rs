@@ -68,9 +68,7 @@ pub(crate) fn compared(query: &WorldQuery, better: Better, confidence: u8) -> Re
 /// Which of the two places is better: worst first.
 pub(crate) fn compared_places(query: &PlacementQuery, better: Better, confidence: u8) -> Result<Evidence, String> {
     match query.options.as_slice() {
-        [first, second] => {
-            Ok(preferred([first, second].map(|option| option.trajectory.clone()), better, confidence))
-        }
+        [first, second] => Ok(preferred([first, second].map(|option| option.trajectory.clone()), better, confidence)),
         _ => Err(does_not_compare(&query.id)),
     }
 }

@@ -3,8 +3,8 @@
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
-    EvidenceReceipt, FeatureTrajectory, PlacementDemonstration, PlacementOption, PlacementQuery, Posterior, QueryResponse,
-    Retraction, SceneObject, TableScene, TrajectoryPreference,
+    EvidenceReceipt, FeatureTrajectory, PlacementDemonstration, PlacementOption, PlacementQuery, Posterior,
+    QueryResponse, Retraction, SceneObject, TableScene, TrajectoryPreference,
 };
 use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::to_cdr;
@@ -214,7 +214,11 @@ fn which_of_two_places_is_better_is_answered_by_comparing_the_two_or_by_showing_
     let mut swapped = of(&query.options);
     swapped.reverse();
     assert_eq!(send(compared("c1", swapped)).outcome, EvidenceReceipt::ACCEPTED);
-    assert_eq!(send(compared("c2", of(&query.options))).outcome, EvidenceReceipt::REFUSED, "a question is answered once");
+    assert_eq!(
+        send(compared("c2", of(&query.options))).outcome,
+        EvidenceReceipt::REFUSED,
+        "a question is answered once"
+    );
     let posterior = session.posterior();
     let kinds: Vec<(&str, u64)> = posterior.rationalities.iter().map(|of| (of.kind.as_str(), of.n)).collect();
     assert!(kinds.contains(&("preferences", 1)) && kinds.contains(&("placements", 0)), "{kinds:?}");

@@ -32,7 +32,12 @@ pub(super) fn handles(query: &PlacementQuery, scene: &SceneView, draft: &Draft) 
         for ((name, letter, rgba), option) in PLACES.into_iter().zip([first, second]) {
             let at = &option.placement;
             all.push(offered(named(id, name), letter, rgba, scene, [at.x, at.y]));
-            all.push(column.answer(frame, named(id, &format!("{name} tile")), &format!("Place {letter} is better"), rgba));
+            all.push(column.answer(
+                frame,
+                named(id, &format!("{name} tile")),
+                &format!("Place {letter} is better"),
+                rgba,
+            ));
         }
         all.push(column.answer(frame, named(id, "equal"), "About equal", ANSWER));
     }

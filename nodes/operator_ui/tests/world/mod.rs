@@ -8,7 +8,8 @@ pub mod table;
 use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
     EvidenceLog, EvidenceReceipt, EvidenceRecord, FeatureTrajectory, LessonStatus, PerformanceBounds, PlacementBound,
-    PlacementDemonstration, PlacementOption, PlacementPlan, PlacementQuery, Posterior, Retraction, SceneObject, TableScene,
+    PlacementDemonstration, PlacementOption, PlacementPlan, PlacementQuery, Posterior, Retraction, SceneObject,
+    TableScene,
 };
 use apprentice_msgs::std_msgs::Header;
 use apprentice_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
