@@ -11,6 +11,7 @@ import { drawReport } from "./report.js";
 import { Session, lessonStart } from "./session.js";
 import { TableView } from "./table.js";
 import { answersLeft, drawTrend } from "./trend.js";
+import { drawWeights } from "./weights.js";
 import { ANSWER, ANSWERS, BAR, CARRY, GAUGE, LINK, PROGRESS, QUESTION, STATES, TABLE, fillWords, sentence } from "./words.js";
 import { WorldLesson } from "./world.js";
 
@@ -28,6 +29,8 @@ const carry = new Carry(() => render());
 const again = new Set();
 /** Where the target was put for each of the newest questions. */
 const drafts = new Map(), MAX_DRAFTS = 8;
+/** Weights that are shown. */
+const MAX_WANTS = 8;
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 // ---- what is on the table now -------------------------------------------------------------------------------------
@@ -175,6 +178,7 @@ $("report-close").addEventListener("click", () => $("report-dialog").close());
 $("report-dialog").addEventListener("close", () => $("report").replaceChildren());
 $("heat").addEventListener("change", () => { own.heat = $("heat").checked; render(); });
 $("log-scale").addEventListener("change", renderProgress);
+$("wants").addEventListener("toggle", renderWants);
 $("answers").addEventListener("pointerleave", () => look(null));
 $("theme").addEventListener("click", () => setTheme(isDark() ? "light" : "dark"));
 dark.addEventListener("change", render);
@@ -363,6 +367,13 @@ function renderProgress() {
   drawTrend($("trend"), thisLesson(), $("log-scale").checked);
   drawReceipt($("receipt-list"), state.bounds);
   $("receipt").hidden = !state.bounds;
+  renderWants();
+}
+
+/** The weights that are largest; hidden as long as the robot's opinion is. */
+function renderWants() {
+  $("wants").hidden = isAboutWorld() || !state.weights.length || !reveal();
+  if (!$("wants").hidden && $("wants").open) drawWeights($("wants-picture"), state.weights.toSorted((a, b) => Math.abs(b.mean) - Math.abs(a.mean)).slice(0, MAX_WANTS));
 }
 
 function look(answer) {

@@ -205,7 +205,8 @@ function policy({ policy: made, world, posterior }) {
 }
 
 function wants(of) {
-  if (!of.weights.length) return null;
+  // While a table is asked about they would sway the answer, as the plan would.
+  if (!of.weights.length || (of.asking && !of.isAboutWorld)) return null;
   const shown = of.weights.toSorted((a, b) => Math.abs(b.mean) - Math.abs(a.mean)).slice(0, MAX_WEIGHTS);
   const reach = 1.05 * Math.max(1e-9, ...shown.flatMap((w) => [Math.abs(w.low), Math.abs(w.high)])), x = (v) => 80 + (80 * v) / reach;
   const bar = ({ mean, low, high }) => {

@@ -212,7 +212,7 @@ pub(crate) fn robust_bounds_view(message: &PolicyBounds) -> Option<RobustBoundsV
 /// What each weight may be, in a lesson about a world.
 pub(crate) fn weights_view(message: &Posterior) -> Vec<WeightView> {
     let k = message.feature_names.len();
-    if message.world.hash.is_empty() || k > MAX_WEIGHTS || check_posterior(message).is_err() {
+    if k > MAX_WEIGHTS || check_posterior(message).is_err() {
         return Vec::new();
     }
     let weight = |(i, name): (usize, &String)| {
@@ -221,7 +221,15 @@ pub(crate) fn weights_view(message: &Posterior) -> Vec<WeightView> {
         let mean = values.iter().sum::<f64>() / n as f64;
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values[((share * n as f64) as usize).min(n - 1)];
-        WeightView { name: name.clone(), mean, low: at(0.05), high: at(0.95) }
+        WeightView { name: shown_name(message, name), mean, low: at(0.05), high: at(0.95) }
     };
     message.feature_names.iter().enumerate().map(weight).collect()
+}
+
+/// A thing on the table by its label, where no other is called the same.
+fn shown_name(message: &Posterior, name: &str) -> String {
+    let objects = &message.task.objects;
+    let label = objects.iter().find(|object| object.id == name).map(|object| object.label.as_str()).unwrap_or_default();
+    let is_unique = objects.iter().filter(|object| object.label == label).count() == 1;
+    if label.is_empty() || !is_unique { name.to_owned() } else { label.to_owned() }
 }

@@ -178,7 +178,7 @@ fn what_was_shown_in_a_world_is_in_the_list_and_can_be_taken_back() {
 }
 
 #[test]
-fn weights_and_the_history_of_the_loss_are_told_in_a_lesson_about_a_world_only() {
+fn weights_are_told_by_name_and_the_history_of_the_loss_in_a_lesson_about_a_world_only() {
     let mut table = Table::new();
     let about = Posterior {
         revision: 1,
@@ -220,7 +220,20 @@ fn weights_and_the_history_of_the_loss_are_told_in_a_lesson_about_a_world_only()
 
     let mut set = Table::asking(3);
     assert_eq!(set.shown.get("loss_trend"), None);
-    set.hear(Event::Posterior(Box::new(Posterior { world: WorldReference::default(), ..about })));
-    assert_eq!(set.shown.get("weights"), None);
+    // In a lesson about a table things are called as they are there, where that tells which is meant.
+    let mut task = world::scene("task", 0.0);
+    task.objects[1].label = "bowl".into();
+    let feature_names: Vec<String> = ["plate", "cup"].map(String::from).into();
+    let of_table = Posterior { world: WorldReference::default(), task, feature_names, ..about };
+    set.hear(Event::Posterior(Box::new(of_table.clone())));
+    let names = |set: &Table| {
+        set.shown["weights"].as_array().expect("weights").iter().map(|w| w["name"].clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(names(&set), ["plate", "cup"], "two things are called a bowl");
+    let mut named = of_table;
+    named.revision = 2;
+    named.task.objects[0].label = "blue plate".into();
+    set.hear(Event::Posterior(Box::new(named)));
+    assert_eq!(names(&set), ["blue plate", "cup"]);
     assert!(set.shown["lesson"]["loss_bound"].is_null() && set.shown["lesson"]["epsilon_loss"].is_null());
 }
