@@ -134,6 +134,11 @@ def main():
         if heard[0] >= 3 and heard[1] >= 2:
             break
         time.sleep(0.02)
+    # Who is matched here may not have matched us yet; so what is known is said again, as state is.
+    for _ in range(5):
+        time.sleep(0.2)
+        world_writer.write(row())
+        policies_writer.write(policies())
     for writer in (world_writer, policies_writer):
         writer.wait_for_acks(duration(seconds=10))
     print(json.dumps(answer))

@@ -4,10 +4,10 @@ use active_query::ActiveQuery;
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
     EvidenceReceipt, LessonStatus, PerformanceBounds, PlacementBound, PlacementDemonstration, PlacementQuery,
-    Posterior, QueryResponse,
+    Posterior, QueryResponse, TrajectoryPreference,
 };
 use bus::Arguments;
-use demonstrator::{Answer, Person, true_error_m};
+use demonstrator::{Answer, Comparison, Person, true_error_m};
 use exchange::{point_to_message, scene_from_message, scene_to_message};
 use performance_bounds::PerformanceBoundsNode;
 use rand::{RngExt, SeedableRng};
@@ -62,6 +62,10 @@ pub struct Held {
     pub seed: u64,
     /// Whether the bound fell below ε.
     pub taught: bool,
+    /// Whether it ended because what was said did not fit together.
+    pub doubted: bool,
+    /// Comparisons of places drawn at random that were held against the model.
+    pub held_out: u32,
     /// Questions asked.
     pub questions: u32,
     /// After each answer.
@@ -94,7 +98,14 @@ impl Classroom {
     }
 
     /// Changes what an experiment varies.
-    pub fn vary(&mut self, epsilon_m: Option<f64>, max_questions: Option<i64>, beta: Option<f64>) {
+    pub fn vary(
+        &mut self,
+        epsilon_m: Option<f64>,
+        max_questions: Option<i64>,
+        beta: Option<f64>,
+        hold_out_share: Option<f64>,
+    ) {
+        self.query.hold_out_share = hold_out_share.unwrap_or(self.query.hold_out_share);
         self.query.epsilon_m = epsilon_m.unwrap_or(self.query.epsilon_m);
         self.query.max_questions = max_questions.unwrap_or(self.query.max_questions);
         self.posterior.beta = beta.unwrap_or(self.posterior.beta);
@@ -113,8 +124,8 @@ impl Classroom {
         let settings = reward_posterior::Settings { seed: signed, preview_draws: 0, ..self.posterior.clone() };
         let mut posterior = RewardPosterior::new(settings);
         let mut bounds = PerformanceBoundsNode::new(self.bounds.clone());
-        // As the dissertation asks: where, never which of two.
-        let asks = active_query::Settings { seed: signed, hold_out_share: 0.0, ..self.query.clone() };
+        // There is no arm here.
+        let asks = active_query::Settings { seed: signed, only_reachable: false, ..self.query.clone() };
         let mut query = ActiveQuery::new(asks);
         let tests = test_tables(&self.task, n_tests, seed);
         let now = Time::default();
@@ -142,7 +153,9 @@ impl Classroom {
                 history.push(self.examine(&person, &tests, &drawn, &judged));
             }
             let (mut asked, mut lesson) = (None, None);
-            for output in query.step(now, active_query::Event::Bounds(judged)) {
+            let evidence = active_query::Event::Evidence(Box::new(posterior.evidence().log()));
+            let outputs = query.step(now, evidence).into_iter();
+            for output in outputs.chain(query.step(now, active_query::Event::Bounds(judged))) {
                 match output {
                     active_query::Output::Query(query) => asked = Some(query),
                     active_query::Output::Lesson(status) => lesson = Some(status),
@@ -152,7 +165,9 @@ impl Classroom {
             let lesson = lesson.ok_or_else(|| unexpected("there is no state of the lesson".into()))?;
             let Some(asked) = asked else {
                 let taught = lesson.state == LessonStatus::TAUGHT;
-                return Ok(Held { seed, taught, questions: lesson.questions_asked, history });
+                let doubted = lesson.state == LessonStatus::MISFIT;
+                let held_out = lesson.held_out;
+                return Ok(Held { seed, taught, doubted, held_out, questions: lesson.questions_asked, history });
             };
             posterior.step(now, reward_posterior::Event::Query(asked.clone()));
             let event = answer(&person, *asked).map_err(unexpected)?;
@@ -202,6 +217,23 @@ fn newest(posterior: &mut RewardPosterior) -> Result<Posterior, LessonError> {
 fn answer(person: &Person, asked: PlacementQuery) -> Result<reward_posterior::Event, String> {
     let scene = scene_from_message(&asked.scene).map_err(|error| error.to_string())?;
     let id = format!("a-{}", asked.id);
+    let skip = |id: String, query_id: String| {
+        let response = QueryResponse { id, query_id, ..QueryResponse::default() };
+        reward_posterior::Event::Response(Box::new(response))
+    };
+    if let [first, second] = asked.options.as_slice() {
+        let places_m = [first, second].map(|option| Point::new(option.placement.x, option.placement.y));
+        let said = person.compare(&asked.id, &scene, places_m).map_err(|error| error.to_string())?;
+        let Comparison::Said { answer, second_is_better } = said else { return Ok(skip(id, asked.id)) };
+        let [worse, better] = if second_is_better { [first, second] } else { [second, first] };
+        return Ok(reward_posterior::Event::Preference(Box::new(TrajectoryPreference {
+            id,
+            query_id: asked.id.clone(),
+            trajectories: vec![worse.trajectory.clone(), better.trajectory.clone()],
+            answer,
+            ..TrajectoryPreference::default()
+        })));
+    }
     Ok(match person.answer(&asked.id, &scene).map_err(|error| error.to_string())? {
         Answer::Place(at_m) => reward_posterior::Event::Demonstration(Box::new(PlacementDemonstration {
             id,
@@ -210,11 +242,7 @@ fn answer(person: &Person, asked: PlacementQuery) -> Result<reward_posterior::Ev
             placement: point_to_message(at_m),
             ..PlacementDemonstration::default()
         })),
-        Answer::Skip | Answer::CantTell { .. } => reward_posterior::Event::Response(Box::new(QueryResponse {
-            id,
-            query_id: asked.id,
-            ..QueryResponse::default()
-        })),
+        Answer::Skip | Answer::CantTell { .. } => skip(id, asked.id),
     })
 }
 

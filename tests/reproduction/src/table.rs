@@ -24,6 +24,9 @@ pub struct Arguments {
     /// Rationality assumed of the person; as in the scenario unless given
     #[arg(long)]
     beta: Option<f64>,
+    /// Share of questions that offer two places at random; as in the scenario unless given
+    #[arg(long)]
+    hold_out_share: Option<f64>,
     /// Test tables a lesson, every object redrawn
     #[arg(long, default_value_t = 200)]
     tests: usize,
@@ -37,14 +40,18 @@ pub fn run(arguments: &Arguments) -> Result<(), LessonError> {
     for name in &arguments.scenarios {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config").join(format!("{name}.yaml"));
         let mut classroom = Classroom::open(&file)?;
-        classroom.vary(arguments.epsilon_m, arguments.max_questions, arguments.beta);
+        classroom.vary(arguments.epsilon_m, arguments.max_questions, arguments.beta, arguments.hold_out_share);
         let mut lessons = Vec::new();
         for seed in 1..=arguments.trials {
             let held = classroom.hold(seed, arguments.tests)?;
             let last = held.history.last();
             eprintln!(
                 "{name} seed {seed}: {} after {} questions, mean error {:.1} cm",
-                if held.taught { "taught" } else { "not taught" },
+                match (held.taught, held.doubted) {
+                    (true, _) => "taught",
+                    (false, true) => "doubted",
+                    (false, false) => "not taught",
+                },
                 held.questions,
                 last.map_or(f64::NAN, |last| 100.0 * last.mean_error_m)
             );
@@ -62,10 +69,12 @@ fn report(name: &str, classroom: &Classroom, lessons: &[Held]) {
     let mut questions: Vec<u32> = taught.iter().map(|held| held.questions).collect();
     questions.sort_unstable();
     println!(
-        "{name}: {} of {} lessons taught, ε = {:.1} cm",
+        "{name}: {} of {} lessons taught, ε = {:.1} cm; {} doubted, after {} comparisons at random in all",
         taught.len(),
         lessons.len(),
-        100.0 * classroom.epsilon_m()
+        100.0 * classroom.epsilon_m(),
+        lessons.iter().filter(|held| held.doubted).count(),
+        lessons.iter().map(|held| held.held_out).sum::<u32>(),
     );
     if let (Some(first), Some(last)) = (questions.first(), questions.last()) {
         println!("  questions to taught: min {first}, median {}, max {last}", questions[questions.len() / 2]);
