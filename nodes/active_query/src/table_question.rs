@@ -90,23 +90,25 @@ pub(crate) fn subject(
     // The table of the lesson comes only when no imagined one is worth asking about, and before anything was said.
     let is_open = tables.is_taught_anything && tables.largest < n_imagined && possible.len() > 1;
     let strategy = if is_open { settings.strategy } else { Strategy::Var };
-    match strategy {
-        Strategy::Var if where_ => return Ok(Some(Subject::plain(tables.largest))),
-        Strategy::Var if which => return most_telling(&[tables.largest], [false, true], &mut rng),
+    let found = match strategy {
+        Strategy::Var if where_ => Some(Subject::plain(tables.largest)),
+        Strategy::Var if which => most_telling(&[tables.largest], [false, true], &mut rng)?,
         Strategy::Random if where_ || which => {
             let table = possible[index(possible.len(), &mut rng)];
             let wants_two = which && (!where_ || uniform(&mut rng) < 0.5);
             let places = wants_two.then(|| any_two(&tables.scenes[table], tables.reach, &mut rng)).flatten();
-            if places.is_some() || where_ {
-                return Ok(Some(Subject { places, ..Subject::plain(table) }));
-            }
+            (places.is_some() || where_).then(|| Subject { places, ..Subject::plain(table) })
         }
-        Strategy::Var | Strategy::Random => {}
+        Strategy::Var | Strategy::Random => None,
         Strategy::Information | Strategy::Entropy | Strategy::RewardInformation | Strategy::LookAhead => {
-            return most_telling(&possible, [where_, which], &mut rng);
+            most_telling(&possible, [where_, which], &mut rng)?
         }
-    }
-    Ok(None)
+    };
+    // Where the rewards like the same place best, other places may still tell them apart: the lesson goes on until the bound is small.
+    let any = || any_two(&tables.scenes[tables.largest], tables.reach, &mut rng);
+    let anyhow =
+        || which.then(any).flatten().map(|places| Subject { places: Some(places), ..Subject::plain(tables.largest) });
+    Ok(found.or_else(anyhow))
 }
 
 struct Asking<'a> {

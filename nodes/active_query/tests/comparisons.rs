@@ -192,6 +192,15 @@ fn where_it_may_not_be_asked_where_the_pair_tells_between_the_rewards_that_fit()
         assert!(gains[1] >= gains[0], "the best of all tables is no worse than that of one: {gains:?}");
     }
     assert!((20..=60).contains(&firsts), "which is A is drawn: {firsts} of 80");
+    // Rewards that like the same place best are told apart by other places; something is asked while the bound is large.
+    let agreeing = Posterior {
+        draws: posterior(0).draws.iter().map(|w| if *w < 0.0 { 0.4 } else { *w }).collect(),
+        ..posterior(0)
+    };
+    for strategy in [Strategy::Var, Strategy::Information, Strategy::Random] {
+        let (query, _) = asked(&Settings { strategy, ..only_pairs.clone() }, &agreeing, &said(&[]), 0.3);
+        assert_eq!(query.expect("the bound is above ε").options.len(), 2, "{strategy:?}");
+    }
     let nothing = Settings { table_question_kinds: Vec::new(), ..settings() };
     let (query, lesson) = asked(&nothing, &posterior(0), &said(&[]), 0.3);
     assert!(query.is_none() && lesson.query_id.is_empty() && lesson.state == LessonStatus::ASKING);
