@@ -2,8 +2,8 @@
 
 use crate::suite::{fresh_folder, run};
 use crate::taught::flowers;
-use apprentice_msgs::msg::Posterior;
-use apprentice_msgs::{from_cdr, to_cdr};
+use apprentice_msgs::msg::{Posterior, TableReach};
+use apprentice_msgs::{Message, from_cdr, to_cdr};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -34,11 +34,16 @@ fn a_recorded_lesson_is_recomputed_to_the_bit_by_one_thread_and_by_two() {
         assert!(compared[kind]["recorded"].as_u64() >= Some(revisions as u64), "{kind}: {compared}");
     }
     assert!(compared["plans"]["recorded"].as_u64() > Some(0), "{compared}");
+    assert_eq!(
+        (&compared["reaches"]["recorded"], &compared["reaches"]["revisions"]),
+        (&1.into(), &1.into()),
+        "{compared}"
+    );
     assert!(compared["mismatch"].is_null(), "{compared}");
 }
 
-/// A copy of the lesson's bag in which `forge` has changed the bytes of the first posterior of revision 3.
-fn forged(name: &str, forge: impl Fn(&mut Posterior)) -> PathBuf {
+/// A copy of the lesson's bag in which `forge` has changed what it says it has of the messages of a topic.
+fn forged<M: Message>(name: &str, of: &str, forge: impl Fn(&mut M) -> bool) -> PathBuf {
     let folder = fresh_folder(name);
     let path = folder.join("forged_0.mcap");
     let bag = bag_files::open_bag(&flowers().bag).expect("the bag opens");
@@ -48,11 +53,10 @@ fn forged(name: &str, forge: impl Fn(&mut Posterior)) -> PathBuf {
         let message = message.expect("the bag is whole");
         let topic = writer.add_topic(&message.topic).expect("a topic");
         let mut data = message.data;
-        if message.topic.name == "/apprentice/posterior" {
-            let mut posterior: Posterior = from_cdr(&data).expect("a recorded posterior");
-            if posterior.revision == 3 {
-                forge(&mut posterior);
-                data = to_cdr(&posterior);
+        if message.topic.name == of {
+            let mut content: M = from_cdr(&data).expect("a recorded message");
+            if forge(&mut content) {
+                data = to_cdr(&content);
             }
         }
         writer.write(topic, message.log_time, message.publish_time, &data).expect("a file can be written");
@@ -63,9 +67,10 @@ fn forged(name: &str, forge: impl Fn(&mut Posterior)) -> PathBuf {
 
 #[test]
 fn one_bit_of_one_draw_is_found_out() {
-    let path = forged("forged-draw", |posterior| {
+    let path = forged("forged-draw", "/apprentice/posterior", |posterior: &mut Posterior| {
         let draw = &mut posterior.draws[41];
         *draw = f32::from_bits(draw.to_bits() ^ 1);
+        posterior.revision == 3
     });
     let output = verify(&path, &[]);
     let told = words(&output);
@@ -78,9 +83,25 @@ fn one_bit_of_one_draw_is_found_out() {
 
 #[test]
 fn a_forged_diagnostic_is_found_out() {
-    let path = forged("forged-rhat", |posterior| posterior.rhat_max = 1.0);
+    let path = forged("forged-rhat", "/apprentice/posterior", |posterior: &mut Posterior| {
+        posterior.rhat_max = 1.0;
+        posterior.revision == 3
+    });
     let output = verify(&path, &[]);
     let told = words(&output);
     assert_eq!(output.status.code(), Some(1), "{told}");
     assert!(told.contains("rhat_max") && told.contains("revision 3"), "{told}");
+}
+
+#[test]
+fn a_longer_arm_than_there_was_is_found_out() {
+    // A far corner, which the arm does not reach; no table of the lesson may have been imagined otherwise for it.
+    let path = forged("forged-reach", "/apprentice/reach", |reach: &mut TableReach| {
+        let corner = &mut reach.reachable[30 * 32 + 1];
+        !std::mem::replace(corner, true)
+    });
+    let output = verify(&path, &[]);
+    let told = words(&output);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(told.contains("TableReach") && told.contains("reachable[961]"), "{told}");
 }

@@ -142,6 +142,7 @@ fn words(report: &Report) -> Vec<String> {
         ("questions about worlds", report.world_queries),
         ("lesson states", report.lessons),
         ("plans", report.plans),
+        ("maps of the arm's reach", report.reaches),
         ("previews", report.previews),
         ("bounds on policies", report.policy_bounds),
         ("robust policies", report.robust_policies),

@@ -47,6 +47,8 @@ pub struct Report {
     pub lessons: Checked,
     /// Plans and guesses compared.
     pub plans: Checked,
+    /// What an arm reaches compared, of all that was recorded: that of the lesson's table.
+    pub reaches: Checked,
     /// Previews compared.
     pub previews: Checked,
     /// Bounds on policies compared, of all that were recorded: those whose policies were recorded, too.
@@ -88,13 +90,14 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
         .or_else(|| beyond(&recording.query, last))
         .or_else(|| beyond(&recording.world_query, last))
         .or_else(|| beyond(&recording.lesson, last));
+    let mut reaches = Checked { recorded: 0, revisions: recording.reach.len() };
     for recorded in &recording.reach {
         if mismatch.is_some() {
             break;
         }
-        if let Some(recomputed) = lesson.reach_again(recorded)?
-            && recomputed != *recorded
-        {
+        let Some(recomputed) = lesson.reach_again(recorded)? else { continue };
+        reaches.recorded += 1;
+        if recomputed != *recorded {
             mismatch = Some(found(recorded, &recomputed, 0));
         }
     }
@@ -146,6 +149,7 @@ pub fn verify(recording: &Recording, lesson: &mut Lesson) -> Result<Report, Repl
         world_queries: checked(&recording.world_query, n_asked),
         lessons: checked(&recording.lesson, n_tables.max(n_states)),
         plans: checked(&recording.plan, n_tables),
+        reaches,
         previews: checked(&recording.preview, lesson.previews.len()),
         policy_bounds,
         robust_policies: all(recording.robust_policy.values().map(Vec::len).sum()),
