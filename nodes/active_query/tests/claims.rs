@@ -1,25 +1,15 @@
 //! What is asked, when the lesson ends, and that outputs are a function of the messages.
 
+mod table;
+
 use active_query::{ActiveQuery, Event, Output, Settings, Strategy};
 use apprentice_msgs::builtin_interfaces::Time;
-use apprentice_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use apprentice_msgs::msg::{
-    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior, Rationality, SceneObject,
-    TableScene,
+    Candidates, LessonStatus, PerformanceBounds, PlacementBound, PlacementQuery, Posterior, Rationality,
 };
 use apprentice_msgs::to_cdr;
 use bus::testing::check_parameters;
-
-fn object(id: &str, x: f64, y: f64) -> SceneObject {
-    SceneObject {
-        id: id.into(),
-        label: id.into(),
-        shape: SceneObject::SHAPE_CYLINDER,
-        size_m: Vector3 { x: 0.1, y: 0.1, z: 0.1 },
-        pose: Pose { position: Point { x, y, z: 0.0 }, orientation: Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 } },
-        supports: false,
-    }
-}
+use table::task;
 
 fn posterior(revision: u64, n_demonstrations: u64) -> Posterior {
     Posterior {
@@ -30,17 +20,6 @@ fn posterior(revision: u64, n_demonstrations: u64) -> Posterior {
         task: task(),
         scene: task(),
         ..Posterior::default()
-    }
-}
-
-fn task() -> TableScene {
-    TableScene {
-        id: "task".into(),
-        width_m: 1.0,
-        depth_m: 1.0,
-        objects: vec![object("cup", 0.25, 0.25), object("plate", 0.75, 0.75)],
-        target: object("vase", 0.0, 0.0),
-        ..TableScene::default()
     }
 }
 

@@ -127,6 +127,8 @@ pub struct PlacementPlanner {
     pub(crate) sharing: Sharing,
     /// As it was told last.
     pub(crate) reach: Option<Box<TableReach>>,
+    /// Whether robot or table have changed since.
+    pub(crate) reach_is_old: bool,
 }
 
 impl PlacementPlanner {
@@ -161,6 +163,7 @@ impl PlacementPlanner {
             put_down: None,
             sharing: Sharing::default(),
             reach: None,
+            reach_is_old: true,
         }
     }
 
@@ -236,6 +239,7 @@ impl PlacementPlanner {
                 }
                 self.scene = Some(scene);
                 self.plan = None;
+                self.reach_is_old = true;
             }
             Event::Lesson(lesson) => {
                 let taught = (lesson.state == LessonStatus::TAUGHT).then_some(lesson.revision);
@@ -333,6 +337,7 @@ impl PlacementPlanner {
         let mut outputs: Vec<Output> =
             told.into_iter().map(|text| Output::Warn(format!("robot description: {text}"))).collect();
         if self.robot_hash != before {
+            self.reach_is_old = true;
             (self.guess, self.plan) = (None, None);
             outputs.extend(self.update(now));
         }

@@ -31,21 +31,20 @@ impl PlacementPlanner {
         Ok(told)
     }
 
-    /// What is told of the table at hand, when that is news or wanted again.
+    /// What is told of the table at hand, when that is news or wanted again. A table on which things were moved is the same.
     pub(crate) fn tell_reach(&mut self, again: bool) -> Option<Output> {
-        let scene = self.scene.take()?;
-        let is_told = self.reach.as_ref().is_some_and(|told| {
-            told.robot_hash == self.robot_hash
-                && (told.width_m, told.depth_m) == (scene.width_m, scene.depth_m)
-                && told.target_id == scene.target.id
-                && told.header.frame_id == scene.header.frame_id
-        });
-        if !is_told && !self.robot_hash.is_empty() {
+        let mut is_news = false;
+        if self.reach_is_old
+            && !self.robot_hash.is_empty()
+            && let Some(scene) = self.scene.take()
+        {
+            self.reach_is_old = false;
             // A scene that cannot be used is told of by those who plan for it.
-            self.reach = self.reach(&scene).ok().map(Box::new);
+            let reach = self.reach(&scene).ok().map(Box::new);
+            is_news = reach.is_some() && reach != self.reach;
+            self.reach = reach;
+            self.scene = Some(scene);
         }
-        self.scene = Some(scene);
-        let news = self.reach.clone().filter(|_| again || !is_told);
-        news.map(Output::Reach)
+        self.reach.clone().filter(|_| again || is_news).map(Output::Reach)
     }
 }

@@ -5,7 +5,7 @@ use active_query::ActiveQuery;
 use apprentice_msgs::builtin_interfaces::Time;
 use apprentice_msgs::msg::{
     Candidates, EvidenceRecord, LessonStatus, PerformanceBounds, PlacementPlan, PlacementQuery, PolicyBounds,
-    PolicySet, Posterior, PosteriorPreview, TableReach,
+    PolicySet, Posterior, PosteriorPreview, TableReach, TableScene,
 };
 use bus::NodeSettings;
 use exchange::{World, is_about_a_table, world_from_message};
@@ -151,11 +151,13 @@ fn recorded_previews(recording: &Recording, base_revision: u64) -> impl Iterator
 /// anew, too ([`Lesson::reach_again`]).
 fn recorded_reach<'a>(recording: &'a Recording, posterior: &Posterior) -> Option<&'a TableReach> {
     let (candidates, _) = recording.candidates.get(&posterior.revision)?.first()?;
-    let is_of = |reach: &&TableReach| {
-        let task = &posterior.task;
-        (reach.width_m, reach.depth_m, &reach.target_id) == (task.width_m, task.depth_m, &task.target.id)
-    };
-    recording.reach.iter().filter(is_of).find(|reach| reach.robot_hash == candidates.robot_hash)
+    let mut of_task = recording.reach.iter().filter(|reach| is_of(reach, &posterior.task));
+    of_task.find(|reach| reach.robot_hash == candidates.robot_hash)
+}
+
+/// Whether that is the reach of a table with its target.
+fn is_of(reach: &TableReach, task: &TableScene) -> bool {
+    (reach.width_m, reach.depth_m, &reach.target_id) == (task.width_m, task.depth_m, &task.target.id)
 }
 
 fn table_round(
@@ -235,7 +237,7 @@ impl Lesson {
         let of = |round: &Round| (round.table.is_some()).then(|| round.posterior.task.clone());
         let Some(task) = self.rounds.iter().find_map(of) else { return Ok(None) };
         let Some(settings) = self.planner.clone() else { return Ok(None) };
-        if (recorded.width_m, recorded.depth_m, &recorded.target_id) != (task.width_m, task.depth_m, &task.target.id) {
+        if !is_of(recorded, &task) {
             return Ok(None);
         }
         let wrong = |reason: String| ReplayError::Compute { revision: 0, reason };
